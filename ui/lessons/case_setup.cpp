@@ -1,0 +1,158 @@
+#include "ui/lessons/case_setup.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+#include <algorithm>
+
+#include "ui/lessons/parameter_names.h"
+
+namespace tidemark::ui {
+namespace {
+
+using document::Start;
+
+QString text(const char* words) {
+  return QCoreApplication::translate("CaseSetup", words);
+}
+
+// As carry_out() begins without another start.
+Start own_start(const engine::LoadedStudy& study) {
+  Start start;
+  if (study.start && study.start->seed) {
+    const auto& [i, j, k, radius_mm] = *study.start->seed;
+    start.seeds.push_back({study.volume->geometry.to_patient({i, j, k}), radius_mm});
+  } else if (study.start && study.start->threshold) {
+    start.from = document::ThresholdStart{study.start->threshold->first, study.start->threshold->second};
+  }
+  return start;
+}
+
+// Masks and fields are compared by their address.
+bool is_same(const Start& a, const Start& b) {
+  if (a.from.index() != b.from.index() || a.seeds != b.seeds || a.erasers != b.erasers) return false;
+  return std::visit(
+      [&](const auto& one) {
+        using Kind = std::decay_t<decltype(one)>;
+        const auto& other = std::get<Kind>(b.from);
+        if constexpr (std::is_same_v<Kind, document::MaskStart>) {
+          return one.mask == other.mask && one.limit == other.limit;
+        } else if constexpr (std::is_same_v<Kind, document::FieldStart>) {
+          return one.phi == other.phi;
+        } else {
+          return one == other;
+        }
+      },
+      a.from);
+}
+
+// How many steps the tries compute from which the part goes on.
+std::int64_t steps_before(const document::Lesson& lesson, std::size_t part) {
+  std::int64_t steps = 0;
+  for (std::size_t i = part; i-- > 0;) {
+    const auto& attempt = lesson.parts[i].attempt;
+    if (!attempt) continue;
+    steps += attempt->steps;
+    if (!attempt->goes_on) break;
+  }
+  return steps;
+}
+
+void add_remarks(const CaseSetup& setup, QStringList& said) {
+  if (!setup.is_plain) {
+    said << text(QT_TRANSLATE_NOOP(
+        "CaseSetup", "The case is driven or held by more than T and ε, which a lesson does not have."));
+  }
+  if (setup.was_edited) {
+    said << text(QT_TRANSLATE_NOOP(
+        "CaseSetup", "The case was changed on its way, so that the lesson's run can end elsewhere."));
+  }
+}
+
+void take_start(const CaseSetup& setup, const Start* inherited, std::optional<Start>& start) {
+  const Start& without = inherited != nullptr ? *inherited : setup.phantoms_own;
+  start.reset();
+  if (!is_same(setup.start, without)) start = setup.start;
+}
+
+}  // namespace
+
+bool CaseSetup::is_on(const document::LessonStudy& study, const std::filesystem::path& folder) const {
+  if (!study.phantom.empty()) {
+    const auto kind = [](const std::string& name) { return name.substr(0, name.find(':')); };
+    return kind(study.phantom) == kind(origin.phantom);
+  }
+  if (origin.path.empty() || folder.empty()) return false;
+  std::error_code error;
+  return std::filesystem::equivalent(folder / study.file, origin.path, error);
+}
+
+void take_setup(engine::CaseProxy& proxy, std::function<void(const CaseSetup&)> answer,
+                std::function<void()> gave_up) {
+  proxy.take_snapshot(
+      {},
+      [own = own_start(proxy.study()), answer = std::move(answer)](const auto& snapshot) {
+        const document::SessionContents& contents = snapshot->contents;
+        const document::Recipe& recipe = contents.recipe;
+        CaseSetup setup;
+        setup.origin = contents.origin;
+        setup.start = recipe.start;
+        setup.phantoms_own = own;
+        setup.parameters = recipe.final_parameters();
+        setup.smoothed_mm = recipe.final_smoothed_mm();
+        setup.steps = recipe.steps;
+        setup.is_plain = document::is_plain(document::value_of(recipe.final_drive()));
+        // Before the first step a change is a part of the start's setting, except for strokes.
+        setup.was_edited = std::any_of(recipe.events.begin(), recipe.events.end(), [](const auto& event) {
+          if (std::holds_alternative<document::PaintEvent>(event.what)) return true;
+          return event.step > 0 && !std::holds_alternative<document::ResumeEvent>(event.what);
+        });
+        answer(setup);
+      },
+      std::move(gave_up));
+}
+
+QString put_into_part(const CaseSetup& setup, document::Lesson& lesson, std::size_t index,
+                      const std::filesystem::path& folder) {
+  QStringList said;
+  document::LessonPart& part = lesson.parts[index];
+  if (!part.attempt) part.attempt.emplace();
+  document::LessonTry& attempt = *part.attempt;
+  attempt.parameters = setup.parameters;
+  attempt.smoothed_mm = setup.smoothed_mm;
+  attempt.steps = setup.steps;
+  if (attempt.goes_on) {
+    attempt.steps = std::max<std::int64_t>(setup.steps - steps_before(lesson, index), 0);
+  } else if (setup.start.empty()) {
+    said << text(QT_TRANSLATE_NOOP("CaseSetup", "The case has no surface yet, so no start was taken."));
+  } else if (!setup.is_on(lesson.study_of(part), folder)) {
+    said << text(QT_TRANSLATE_NOOP(
+        "CaseSetup", "The case is of another study than the part, so its start was not taken."));
+  } else {
+    const bool own_study = part.study && !(*part.study == lesson.study);
+    take_start(setup, !own_study && lesson.start ? &*lesson.start : nullptr, attempt.start);
+  }
+  add_remarks(setup, said);
+  return said.join(u' ');
+}
+
+QString put_into_lesson(const CaseSetup& setup, document::Lesson& lesson,
+                        const std::filesystem::path& folder) {
+  QStringList said;
+  const solver::Parameters before = lesson.parameters;
+  lesson.parameters = setup.parameters;
+  for (document::LessonPart& part : lesson.parts) {
+    if (part.attempt) follow(part.attempt->parameters, before, lesson.parameters);
+  }
+  if (!setup.origin.phantom.empty()) {
+    if (!setup.is_on(lesson.study, folder)) lesson.study = {setup.origin.phantom, {}};
+  } else if (!setup.is_on(lesson.study, folder)) {
+    said << text(QT_TRANSLATE_NOOP(
+        "CaseSetup",
+        "The case is of another study than the lesson: choose its file first, so that the start fits."));
+  }
+  if (!setup.start.empty() && setup.is_on(lesson.study, folder)) take_start(setup, nullptr, lesson.start);
+  add_remarks(setup, said);
+  return said.join(u' ');
+}
+
+}  // namespace tidemark::ui
