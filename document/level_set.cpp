@@ -322,12 +322,19 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
   const std::int64_t target = step() - std::clamp<std::int64_t>(steps, 0, step());
   if (target == step()) return {};
   const Point before = known_;
-  Status computed = compute_again(target, progress);
+  TIDEMARK_TRY(keep(compute_again(target, progress), recipe_.up_to(target), ChangeKind::step_back, before));
+  if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_, {}, drive_};
+  return {};
+}
+
+// The executor has computed the recipe from its start or from in_place_: an entry after `before`. Where it
+// has not, the level set is at `before` again.
+Status LevelSet::keep(Status computed, Recipe recipe, ChangeKind kind, const Point& before) {
   if (computed) {
-    recipe_ = recipe_.up_to(target);
-    take_drive_of_recipe();
-    curve_.cut(target);
+    recipe_ = std::move(recipe);
     recipe_.executor = setup_.description();
+    take_drive_of_recipe();
+    curve_.cut(step());
     resumed_ = false;
     dirty_ = true;
     computed = read_back_phi();
@@ -336,8 +343,7 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
     TIDEMARK_TRY(go_to(before));
     return computed;
   }
-  if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_, {}, drive_};
-  add_entry(ChangeKind::step_back, before, known_);
+  add_entry(kind, before, known_);
   return {};
 }
 

@@ -168,6 +168,7 @@ class LevelSet final : private OpenChange {
   Result<Point> start_point();
   void take_drive_of_recipe();
   Status compute_again(std::int64_t target, const Progress& progress);
+  Status keep(Status computed, Recipe recipe, ChangeKind kind, const Point& before);
 
   ExecutorSetup setup_;
   History& history_;
