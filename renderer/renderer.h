@@ -98,4 +98,8 @@ Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, std::shared_p
                                                 std::shared_ptr<const Volume> source,
                                                 const solver::PageLayout& layout);
 
+// Shows a copy of what an executor has now: phi, its parameters, and what drives and holds the surface. Fails
+// as snapshot(), set_phi() and set_constraints() do.
+Status show(Renderer& renderer, const solver::Executor& executor);
+
 }  // namespace tidemark::renderer

@@ -118,12 +118,7 @@ Status shoot_evolution(Camera& camera, Scene& scene, const document::Recipe& rec
   options.watch_every = every;
   options.watch = [&](solver::Executor& executor, std::int64_t) -> Status {
     if (console.interrupted()) return cancelled_error();
-    auto phi = executor.snapshot();
-    if (!phi) return pass_on(phi);
-    TIDEMARK_TRY(scene.renderer->set_phi(std::move(*phi)));
-    scene.renderer->set_parameters(executor.parameters());
-    scene.renderer->set_speed(executor.speed());
-    TIDEMARK_TRY(scene.renderer->set_constraints(executor.constraints().get()));
+    TIDEMARK_TRY(renderer::show(*scene.renderer, executor));
     return camera.shoot({nullptr, console.progress().stop});
   };
   auto evolution = document::evolve(recipe, scene.source, options, console.progress());
