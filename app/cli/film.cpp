@@ -155,9 +155,11 @@ Status run(Program& program, const FilmOptions& options) {
     for (const std::string& difference : document::differences(recipe, *scene->source))
       console.warn(difference);
     TIDEMARK_TRY(give_images(recipe, options.render.drive, scene->source->geometry, console));
-    const auto end = document::evolve(recipe, scene->source, on_host(), console.progress());
-    if (!end) return tl::unexpected<Error>(end.error());
-    place(*scene, options.render, end->phi);
+    if (goes_by_surface(options.render)) {
+      auto end = document::evolve(recipe, scene->source, on_host(), console.progress());
+      if (!end) return pass_on(end);
+      place(*scene, options.render, end->phi);
+    }
   }
 
   const double per_second = options.per_second.value_or(kPicturesPerSecond);
