@@ -240,19 +240,13 @@ void LevelSet::put_in_place(Point point) {
   on_its_way_ = false;
 }
 
-// Puts the point's phi, parameters and smoothing into the executor.
+// Puts the point's phi and conditions into the executor. A function is made when it is needed: who is asked
+// for pictures alone does not wait for it.
 Status LevelSet::hand_over(const Point& point) {
-  const solver::Parameters& wanted = point.recipe.final_parameters();
-  if (const double sigma_mm = point.recipe.final_smoothed_mm(); sigma_mm != smoothed_mm()) {
-    auto source = smoothed_source(setup_.volume(), sigma_mm);
-    if (!source) return pass_on(source);
-    TIDEMARK_TRY(setup_.set_source(std::move(*source), sigma_mm, nullptr));
-  }
-  if (!(wanted == parameters())) {
-    TIDEMARK_TRY(setup_.set_parameters(wanted));
-  }
-  TIDEMARK_TRY(setup_.set_limit(point.recipe.start.limit()));
-  TIDEMARK_TRY(drive_as(point.recipe));
+  const Recipe& recipe = point.recipe;
+  TIDEMARK_TRY(setup_.set_limit(recipe.start.limit()));
+  TIDEMARK_TRY(
+      setup_.set_conditions(recipe.final_smoothed_mm(), recipe.final_parameters(), recipe.final_drive()));
   return executor().restore(*point.phi);
 }
 
@@ -287,11 +281,7 @@ void LevelSet::note(const CurvePoint& point) {
 
 // Brings the executor back to the recipe's start, with the edits that were made before the first step.
 Status LevelSet::prepare_start() {
-  if (recipe_.smoothed_mm != smoothed_mm()) {
-    TIDEMARK_TRY(setup_.smooth_source(recipe_.smoothed_mm));
-  }
-  TIDEMARK_TRY(setup_.set_parameters(recipe_.parameters));
-  TIDEMARK_TRY(setup_.set_drive(recipe_.drive));
+  TIDEMARK_TRY(setup_.set_conditions(recipe_.smoothed_mm, recipe_.parameters, recipe_.drive));
   if (start_ == nullptr) {
     TIDEMARK_TRY(setup_.begin(recipe_.start, {}));
     return setup_.play(recipe_.up_to(0), 0, 0, 0, {});

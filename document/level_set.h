@@ -156,7 +156,6 @@ class LevelSet final : private OpenChange {
   enum class Entry { next, none };  // of the history, for what is done
   Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed, Entry entry);
   void append(RecipeEvent event);
-  Status drive_as(const Recipe& recipe);
   void add_entry(ChangeKind kind, const Point& before, const Point& after);
   Status read_back_phi();
   void put_in_place(Point point);
