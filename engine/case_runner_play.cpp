@@ -77,7 +77,7 @@ Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
   const bool pauses = pause_at_convergence_ && alone;
   solver::Advance run{steps, pauses, progress};
   run.progress.report = nullptr;
-  if (!alone) leak_watch_.forget_alarm();
+  leak_watch_.forget_alarm();
   auto report = alone ? leak_watch_.advance(level_set, run) : level_set.advance(run);
   painter_.executor_used();
   if (!report) return pass_on(report);
