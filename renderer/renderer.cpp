@@ -22,9 +22,9 @@ RendererKind chosen_kind(RendererKind asked, const gpu::Device* device) {
 
 Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, std::shared_ptr<gpu::Device> device,
                                                 std::shared_ptr<const Volume> source,
-                                                const solver::PageLayout& layout) {
+                                                const solver::PageLayout& layout, int threads) {
   if (chosen_kind(kind, device.get()) == RendererKind::host) {
-    return HostRenderer::create(std::move(source), layout);
+    return HostRenderer::create(std::move(source), layout, threads);
   }
   if (device == nullptr) return fail(ErrorKind::capability, "the renderer 'gl' needs OpenGL 3.3");
   return GlRenderer::create(std::move(device), std::move(source), layout);
