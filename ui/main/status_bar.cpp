@@ -48,6 +48,7 @@ void StatusBar::note_renderer(const engine::Engine& engine) {
   if (engine.graphics() == engine::Engine::Graphics::none) {
     text << tr("OpenGL: %1.").arg(QString::fromStdString(engine.graphics_problem()));
   }
+  if (!engine.renderer_problem().empty()) text << QString::fromStdString(engine.renderer_problem()) + '.';
   if (!has_gpu) text << tr("The automatic executor is the host's, the processor, too.");
   note->setToolTip(text.join(QChar(' ')));
   addPermanentWidget(note);
