@@ -209,6 +209,7 @@ Result<renderer::Picture> ResultWriter::draw(const RunResults& results) {
   if (!renderer) return pass_on(renderer);
   TIDEMARK_TRY((*renderer)->set_phi(results.phi));
   (*renderer)->set_parameters(results.figures.parameters);
+  (*renderer)->set_speed(results.speed);
   constexpr renderer::PictureSize kSize{1200, 800};
   renderer::SheetView view;
   view.position_mm = renderer::middle_of(results.mask);
