@@ -96,6 +96,23 @@ Status ExecutorSetup::set_source(std::shared_ptr<const Volume> source, double sm
   return {};
 }
 
+Status ExecutorSetup::set_conditions(double smoothed_mm, const solver::Parameters& parameters,
+                                     const std::shared_ptr<const Drive>& drive) {
+  if (smoothed_mm != smoothed_mm_) {
+    auto source = smoothed_source(volume_, smoothed_mm);
+    if (!source) return pass_on(source);
+    TIDEMARK_TRY(set_source(std::move(*source), smoothed_mm, nullptr));
+  }
+  if (parameters != executor_->parameters()) {
+    TIDEMARK_TRY(set_parameters(parameters));
+  }
+  const Drive wanted = value_of(drive);
+  const Drive present = value_of(drive_);
+  if (wanted == present) return {};
+  const bool made = executor_->speed() != nullptr && same_speed(wanted, present);
+  return set_drive(shared(wanted), made ? executor_->speed() : nullptr);
+}
+
 Status ExecutorSetup::change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,
                                       const solver::Field& phi) {
   return remake(source_, kind, options, phi, executor_->speed());

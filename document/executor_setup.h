@@ -42,6 +42,11 @@ class ExecutorSetup {
   [[nodiscard]] bool lacks_speed() const;
   Status make_missing_speed(const Progress& progress);
 
+  // All conditions of a recipe's start or end, smoothed by that many mm. A function that is not that of the
+  // present drive is missing then. Nothing is made anew for what is in place.
+  Status set_conditions(double smoothed_mm, const solver::Parameters& parameters,
+                        const std::shared_ptr<const Drive>& drive);
+
   // Each makes another executor, or fails and changes nothing. They go on from the same phi.
   Status smooth_source(double sigma_mm, const Progress& progress = {});
   // With the volume, smoothed by that much, and the function for it, as set_drive() takes it.

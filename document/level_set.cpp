@@ -240,19 +240,13 @@ void LevelSet::put_in_place(Point point) {
   on_its_way_ = false;
 }
 
-// Puts the point's phi, parameters and smoothing into the executor.
+// Puts the point's phi and conditions into the executor. A function is made when it is needed: who is asked
+// for pictures alone does not wait for it.
 Status LevelSet::hand_over(const Point& point) {
-  const solver::Parameters& wanted = point.recipe.final_parameters();
-  if (const double sigma_mm = point.recipe.final_smoothed_mm(); sigma_mm != smoothed_mm()) {
-    auto source = smoothed_source(setup_.volume(), sigma_mm);
-    if (!source) return pass_on(source);
-    TIDEMARK_TRY(setup_.set_source(std::move(*source), sigma_mm, nullptr));
-  }
-  if (!(wanted == parameters())) {
-    TIDEMARK_TRY(setup_.set_parameters(wanted));
-  }
-  TIDEMARK_TRY(setup_.set_limit(point.recipe.start.limit()));
-  TIDEMARK_TRY(drive_as(point.recipe));
+  const Recipe& recipe = point.recipe;
+  TIDEMARK_TRY(setup_.set_limit(recipe.start.limit()));
+  TIDEMARK_TRY(
+      setup_.set_conditions(recipe.final_smoothed_mm(), recipe.final_parameters(), recipe.final_drive()));
   return executor().restore(*point.phi);
 }
 
@@ -287,11 +281,7 @@ void LevelSet::note(const CurvePoint& point) {
 
 // Brings the executor back to the recipe's start, with the edits that were made before the first step.
 Status LevelSet::prepare_start() {
-  if (recipe_.smoothed_mm != smoothed_mm()) {
-    TIDEMARK_TRY(setup_.smooth_source(recipe_.smoothed_mm));
-  }
-  TIDEMARK_TRY(setup_.set_parameters(recipe_.parameters));
-  TIDEMARK_TRY(setup_.set_drive(recipe_.drive));
+  TIDEMARK_TRY(setup_.set_conditions(recipe_.smoothed_mm, recipe_.parameters, recipe_.drive));
   if (start_ == nullptr) {
     TIDEMARK_TRY(setup_.begin(recipe_.start, {}));
     return setup_.play(recipe_.up_to(0), 0, 0, 0, {});
@@ -322,12 +312,19 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
   const std::int64_t target = step() - std::clamp<std::int64_t>(steps, 0, step());
   if (target == step()) return {};
   const Point before = known_;
-  Status computed = compute_again(target, progress);
+  TIDEMARK_TRY(keep(compute_again(target, progress), recipe_.up_to(target), ChangeKind::step_back, before));
+  if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_, {}, drive_};
+  return {};
+}
+
+// The executor has computed the recipe from its start or from in_place_: an entry after `before`. Where it
+// has not, the level set is at `before` again.
+Status LevelSet::keep(Status computed, Recipe recipe, ChangeKind kind, const Point& before) {
   if (computed) {
-    recipe_ = recipe_.up_to(target);
-    take_drive_of_recipe();
-    curve_.cut(target);
+    recipe_ = std::move(recipe);
     recipe_.executor = setup_.description();
+    take_drive_of_recipe();
+    curve_.cut(step());
     resumed_ = false;
     dirty_ = true;
     computed = read_back_phi();
@@ -336,8 +333,7 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
     TIDEMARK_TRY(go_to(before));
     return computed;
   }
-  if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_, {}, drive_};
-  add_entry(ChangeKind::step_back, before, known_);
+  add_entry(kind, before, known_);
   return {};
 }
 

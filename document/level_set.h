@@ -156,7 +156,6 @@ class LevelSet final : private OpenChange {
   enum class Entry { next, none };  // of the history, for what is done
   Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed, Entry entry);
   void append(RecipeEvent event);
-  Status drive_as(const Recipe& recipe);
   void add_entry(ChangeKind kind, const Point& before, const Point& after);
   Status read_back_phi();
   void put_in_place(Point point);
@@ -168,6 +167,7 @@ class LevelSet final : private OpenChange {
   Result<Point> start_point();
   void take_drive_of_recipe();
   Status compute_again(std::int64_t target, const Progress& progress);
+  Status keep(Status computed, Recipe recipe, ChangeKind kind, const Point& before);
 
   ExecutorSetup setup_;
   History& history_;

@@ -70,15 +70,6 @@ Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunc
   return {};
 }
 
-// As at the end of the recipe. Another function is made when it is needed: who is asked for pictures alone
-// does not wait for it.
-Status LevelSet::drive_as(const Recipe& recipe) {
-  const Drive wanted = value_of(recipe.final_drive());
-  if (wanted == drive_in_use()) return {};
-  const bool made = executor().speed() != nullptr && same_speed(wanted, drive_in_use());
-  return setup_.set_drive(shared(wanted), made ? executor().speed() : nullptr);
-}
-
 Status LevelSet::smooth_source(double sigma_mm) {
   if (sigma_mm == smoothed_mm()) return history_.close();
   auto source = smoothed_source(setup_.volume(), sigma_mm);

@@ -30,20 +30,10 @@ Status LevelSet::take_run(const SweepStart& start, const SweepRun& run, const Pr
   point->recipe.parameters = run.parameters;
   point->recipe.drive = run.drive == nullptr ? start.drive : run.drive;
   TIDEMARK_TRY(go_to(std::move(*point)));
-  Status computed = setup_.play(recipe_, recipe_.events.size(), 0, run.steps, progress);
-  if (computed) {
-    recipe_.steps = run.steps;
-    take_drive_of_recipe();
-    resumed_ = false;
-    dirty_ = true;
-    computed = read_back_phi();
-  }
-  if (!computed) {
-    TIDEMARK_TRY(go_to(before));
-    return computed;
-  }
-  add_entry(ChangeKind::sweep, before, known_);
-  return {};
+  Recipe recipe = recipe_;
+  recipe.steps = run.steps;
+  return keep(setup_.play(recipe, recipe.events.size(), 0, run.steps, progress), recipe, ChangeKind::sweep,
+              before);
 }
 
 }  // namespace tidemark::document

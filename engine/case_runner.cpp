@@ -9,13 +9,6 @@
 #include "engine/lock_step.h"
 
 namespace tidemark::engine {
-namespace {
-
-constexpr double kChunkSeconds = 0.016;  // of steps between two pictures
-constexpr std::int64_t kMostSteps = 50;  // between two pictures: it should be seen how the surface moves
-
-}  // namespace
-
 CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
                        solver::ExecutorKind executor, Receiver receiver, RestoredCase restored)
     : engine_(engine),
@@ -24,7 +17,8 @@ CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
       receiver_(std::move(receiver)),
       restored_(std::move(restored)),
       painter_(engine),
-      history_(study_->summary.window) {
+      history_(study_->summary.window),
+      post_(receiver_.weak_receiver, receiver_.state_arrived) {
   meter_.compare_with(study_->truth);
 }
 
@@ -139,7 +133,6 @@ void CaseRunner::phi_changed() {
   painter_.phi_changed();
   meter_.edited();
   leak_watch_.restart();
-  leak_ = nullptr;
 }
 
 Status CaseRunner::report_edit(Status outcome) {
@@ -206,20 +199,12 @@ void CaseRunner::take_speed(const SpeedOrigin& origin, const SpeedMaker::Made& m
   show();
 }
 
-// An executor asks for the function of its phi only when it steps; at rest D is to be seen as well.
 Status CaseRunner::follow_surface() {
-  const auto& driving = case_->level_set().executor().speed();
-  if (playing_ || driving == nullptr || !driving->follows_surface()) {
-    shown_speed_ = {driving, nullptr, driving};
-  } else {
-    const auto phi = painter_.phi(*case_);
-    if (!phi) return tl::unexpected<Error>(phi.error());
-    if (shown_speed_.driving == driving && shown_speed_.phi == *phi) return {};
-    auto following = driving->following(**phi);
-    shown_speed_ = {driving, *phi, following != nullptr ? std::move(following) : driving};
-    painter_.look_changed();
-  }
-  painter_.set_speed(shown_speed_.function);
+  auto changed = shown_speed_.follow(case_->level_set().executor().speed(), !playing_,
+                                     [this] { return painter_.phi(*case_); });
+  if (!changed) return pass_on(changed);
+  if (*changed) painter_.look_changed();
+  painter_.set_speed(shown_speed_.function());
   return {};
 }
 
@@ -242,157 +227,6 @@ Status CaseRunner::go_to(std::uint64_t state) {
   set_playing(false);
   case_speed_.give_up_smoothing();
   return report_edit(case_->history().go_to(state));
-}
-
-// Playing.
-
-void CaseRunner::set_playing(bool playing) {
-  if (const auto group = group_.lock()) return group->set_playing(playing);
-  play_alone(playing);
-}
-
-void CaseRunner::play_alone(bool playing) {
-  const bool begins = playing && !playing_;
-  if (begins) case_speed_.try_again();
-  if (begins) leak_ = nullptr;
-  playing_ = playing && case_->level_set().begun();
-  if (begins && playing_) post_steps();
-  if (!playing_) end_run();
-}
-
-Status CaseRunner::step(std::int64_t steps, const Progress& progress) {
-  if (!case_->level_set().begun() || case_speed_.holds_steps(*case_)) return {};
-  if (const auto group = group_.lock()) return group->step(steps, progress);
-  // Steps by hand are one entry while nothing else is done.
-  if (playing_ || !case_->level_set().in_run()) play_alone(false);
-  return advance(steps, progress);
-}
-
-void CaseRunner::play(Run run) {
-  play_alone(false);
-  run_ = std::move(run);
-  if (run_->steps > 0) play_alone(true);
-  if (!playing_) end_run();
-}
-
-void CaseRunner::report_end_of_run() {
-  if (!ended_run_) return;
-  receiver_.weak_receiver->send(
-      [ended = std::move(ended_run_->ended), reached = ended_run_->steps == 0] { ended(reached); });
-  ended_run_.reset();
-}
-
-void CaseRunner::end_run() {
-  if (run_) {
-    ended_run_ = std::exchange(run_, std::nullopt);
-    if (ended_run_->until_rest && meter_.converged()) ended_run_->steps = 0;
-  }
-  if (auto status = case_->level_set().end_run(); !status) report_failure(status.error());
-}
-
-std::int64_t CaseRunner::steps_to_next_picture() const {
-  if (steps_per_picture_ > 0) return steps_per_picture_;
-  if (pace_ > 0.0) return std::max(std::llround(kChunkSeconds * pace_), 1LL);
-  const double seconds = meter_.seconds_per_step();
-  if (seconds <= 0.0) return 1;
-  return std::clamp(std::llround(kChunkSeconds / seconds), 1LL, static_cast<long long>(kMostSteps));
-}
-
-void CaseRunner::post_steps(Engine::Clock::time_point due) {
-  engine_.post(
-      Priority::step, this,
-      [self = shared_from_this(), turn = ++turn_](std::stop_token stop) {
-        self->run_steps(turn, std::move(stop));
-      },
-      [self = shared_from_this()](const Error& error) { self->recover(error); }, due);
-}
-
-void CaseRunner::set_pace(double steps_per_second) {
-  if (const auto group = group_.lock()) return group->set_pace(steps_per_second);
-  set_pace_alone(steps_per_second);
-}
-
-void CaseRunner::set_pace_alone(double steps_per_second) {
-  pace_ = steps_per_second;
-  paced_ = Engine::Clock::now();
-  if (playing_) post_steps();
-}
-
-// When the steps after so many may begin: what was late is not made up for. One that waits for others in
-// lock-step looks again soon.
-Engine::Clock::time_point CaseRunner::next_due(std::int64_t steps) {
-  if (pace_ <= 0.0) return {};
-  const auto now = Engine::Clock::now();
-  if (steps == 0) return now + std::chrono::milliseconds(1);
-  const std::chrono::duration<double> time(static_cast<double>(steps) / pace_);
-  paced_ = std::max(paced_ + std::chrono::duration_cast<Engine::Clock::duration>(time), now);
-  return paced_;
-}
-
-void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
-  if (turn != turn_ || !playing_ || !case_ || case_speed_.holds_steps(*case_)) return;
-  Status status = follow_graphics();
-  const auto group = group_.lock();
-  const std::int64_t before = case_->level_set().step();
-  const Progress progress{nullptr, std::move(stop)};
-  const std::int64_t most = run_ ? std::min(run_->steps, steps_to_next_picture()) : steps_to_next_picture();
-  if (status) status = group ? group->advance(*this, progress) : advance(most, progress);
-  if (run_) run_->steps -= case_->level_set().step() - before;
-  if (run_ && run_->steps <= 0) playing_ = false;
-  if (!status && status.error().kind != ErrorKind::cancelled &&
-      !(engine_.device() && engine_.device()->lost())) {
-    set_playing(false);
-    report_failure(status.error());
-  }
-  if (playing_) {
-    post_steps(next_due(case_->level_set().step() - before));
-  } else {
-    end_run();
-  }
-  show();
-}
-
-Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
-  document::LevelSet& level_set = case_->level_set();
-  const bool alone = group_.expired();
-  const bool pauses = run_ ? run_->until_rest : pause_at_convergence_ && alone;
-  solver::Advance run{steps, pauses, progress};
-  run.progress.report = nullptr;
-  leak_ = nullptr;
-  const auto report = alone && !run_ ? advance_watching(run) : level_set.advance(run);
-  painter_.executor_used();
-  if (!report) return tl::unexpected<Error>(report.error());
-  ++advances_;
-  const bool comes_to_rest = report->converged && !meter_.converged();
-  meter_.computed(*report, level_set.step());
-  painter_.phi_changed();
-  if (leak_ || (report->converged && pauses)) playing_ = false;
-  // What has become of it is known with the state that says that it rests.
-  return comes_to_rest || leak_ || meter_.due() ? measure(false) : Status{};
-}
-
-// In parts with looks between them, until there is a leak.
-Result<solver::AdvanceReport> CaseRunner::advance_watching(const solver::Advance& run) {
-  document::LevelSet& level_set = case_->level_set();
-  solver::AdvanceReport all;
-  while (all.steps < run.steps && !leak_) {
-    auto steps = leak_watch_.begin(level_set, run.steps - all.steps);
-    if (!steps) return pass_on(steps);
-    const auto part = level_set.advance({*steps, run.until_converged, run.progress});
-    if (!part) return part;
-    all.steps += part->steps;
-    all.seconds += part->seconds;
-    all.paging_seconds += part->paging_seconds;
-    all.voxel_updates += part->voxel_updates;
-    all.surface_speed = part->surface_speed;
-    // No window of its measure may have ended in this part.
-    all.converged = (all.converged || part->converged) && part->surface_speed < solver::kConvergedSpeed;
-    if (part->steps < *steps || (part->converged && run.until_converged)) break;
-    auto alarm = leak_watch_.look(level_set);
-    if (!alarm) return pass_on(alarm);
-    if (*alarm) leak_ = std::make_shared<const LeakAlarm>(std::move(**alarm));
-  }
-  return all;
 }
 
 Status CaseRunner::measure(bool thoroughly) {
@@ -509,13 +343,13 @@ void CaseRunner::publish() {
   state.step = level_set.step();
   state.begun = level_set.begun();
   state.playing = playing_;
-  state.leak = leak_;
-  state.pace = pace_;
+  state.leak = leak_watch_.alarm();
+  state.pace = pace_.steps_per_second();
   state.time_step = level_set.executor().time_step();
   state.band = level_set.executor().band();
   state.smoothed_mm = case_->smoothed_mm();
   state.drive = level_set.drive();
-  state.speed = shown_speed_.function;
+  state.speed = shown_speed_.function();
   state.speed_waits = case_speed_.waits();
   state.constraints = level_set.executor().constraints();
   state.smoothing = case_speed_.smoothing();
@@ -538,20 +372,7 @@ void CaseRunner::publish() {
   state.start_text = QString::fromStdString(level_set.recipe().start.describe());
   state.limit = level_set.recipe().start.limit();
   meter_.report(state);
-  {
-    const std::lock_guard lock(post_->mutex);
-    post_->state = std::move(state);
-    if (std::exchange(post_->announced, true)) return;
-  }
-  receiver_.weak_receiver->send([arrived = receiver_.state_arrived, post = post_] {
-    CaseState newest;
-    {
-      const std::lock_guard lock(post->mutex);
-      post->announced = false;
-      newest = std::move(post->state);
-    }
-    arrived(std::move(newest));
-  });
+  post_.send(std::move(state));
 }
 
 }  // namespace tidemark::engine

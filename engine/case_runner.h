@@ -10,6 +10,9 @@
 #include "engine/case_proxy.h"
 #include "engine/case_speed.h"
 #include "engine/leak_watch.h"
+#include "engine/pace.h"
+#include "engine/shown_speed.h"
+#include "engine/state_post.h"
 #include "engine/weak_receiver.h"
 
 namespace tidemark::engine {
@@ -74,15 +77,17 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void set_playing(bool playing);
   Status step(std::int64_t steps, const Progress& progress);
   void play_alone(bool playing);
-  void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
+  void set_steps_per_picture(std::int64_t steps) { pace_.set_steps_per_picture(steps); }
   void set_pause_at_convergence(bool pause) { pause_at_convergence_ = pause; }
   // Unset: a leak does not make it pause. In lock-step none does.
   void set_leak_rule(const std::optional<document::LeakRule>& rule) { leak_watch_.set_rule(rule); }
   // At most so many steps a second while it plays; 0: as many as can be computed. For all cases in lock-step.
   void set_pace(double steps_per_second);
   void set_pace_alone(double steps_per_second);
-  [[nodiscard]] double pace() const { return pace_; }
-  [[nodiscard]] std::int64_t steps_to_next_picture() const;
+  [[nodiscard]] double pace() const { return pace_.steps_per_second(); }
+  [[nodiscard]] std::int64_t steps_to_next_picture() const {
+    return pace_.steps_to_next_picture(meter_.seconds_per_step());
+  }
   // Computes steps and records their outcome. A level set that has converged stops playing; in lock-step all
   // go on until all have converged.
   Status advance(std::int64_t steps, const Progress& progress);
@@ -103,17 +108,14 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void phi_changed();
   void recover(const Error& error);
   void post_steps(Engine::Clock::time_point due = {});
-  [[nodiscard]] Engine::Clock::time_point next_due(std::int64_t steps);
   void run_steps(std::uint64_t turn, std::stop_token stop);
   void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);
   void draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority, std::stop_token stop);
   void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
-  Result<solver::AdvanceReport> advance_watching(const solver::Advance& run);
   Status measure(bool thoroughly);
   void follow_drive();
   void take_speed(const SpeedOrigin& origin, const SpeedMaker::Made& made);
   [[nodiscard]] SpeedMaker::Report report() const;  // of long work, to the proxy
-  // What views show of the speed: at rest that of the present surface.
   Status follow_surface();
   void post_measurement();
   void post_history();
@@ -138,40 +140,25 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   std::weak_ptr<LockStep> group_;
 
   LeakWatch leak_watch_;
-  std::shared_ptr<const LeakAlarm> leak_;  // at which it has paused
-
+  Pace pace_;
   CaseSpeed case_speed_;
-  struct ShownSpeed {
-    std::shared_ptr<const solver::SpeedFunction> driving;  // of the executor
-    std::shared_ptr<const solver::Field> phi;              // that it follows
-    std::shared_ptr<const solver::SpeedFunction> function;
-  };
   ShownSpeed shown_speed_;
 
   bool playing_ = false;
   bool pause_at_convergence_ = true;
   bool measurement_waits_ = false;
   bool history_waits_ = false;
-  std::int64_t steps_per_picture_ = 0;
-  std::uint64_t turn_ = 0;           // of the steps that wait: those of earlier ones are not wanted any more
-  double pace_ = 0.0;                // steps a second; 0: free
-  Engine::Clock::time_point paced_;  // when the steps up to here are due
-  std::int64_t advances_ = 0;        // how often steps were computed
-  std::optional<Run> run_;           // that is under way; `steps` are left of it
-  std::optional<Run> ended_run_;     // to be reported; `steps` were not computed
+  std::uint64_t turn_ = 0;     // of the steps that wait: those of earlier ones are not wanted any more
+  std::int64_t advances_ = 0;  // how often steps were computed
+  std::optional<Run> run_;        // that is under way; `steps` are left of it
+  std::optional<Run> ended_run_;  // to be reported; `steps` were not computed
 
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels_;  // as of label_revision_
   std::uint64_t label_revision_ = 0;
   std::optional<document::Acceptance> acceptance_;
   std::uint64_t acceptance_position_ = 0;  // in the history, right after it
 
-  // The newest state, until the proxy has taken it.
-  struct Post {
-    std::mutex mutex;
-    CaseState state;
-    bool announced = false;
-  };
-  std::shared_ptr<Post> post_ = std::make_shared<Post>();
+  StatePost post_;
 };
 
 }  // namespace tidemark::engine

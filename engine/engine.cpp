@@ -93,8 +93,12 @@ Status Engine::make_context() {
 
 void Engine::choose_renderer() {
   using renderer::RendererKind;
-  const auto asked =
-      renderer::renderer_named(qgetenv("TIDEMARK_RENDERER").toStdString()).value_or(RendererKind::automatic);
+  const std::string word = qgetenv("TIDEMARK_RENDERER").toStdString();
+  const auto named = renderer::renderer_named(word);
+  if (!word.empty() && !named) {
+    renderer_problem_ = fmt::format("TIDEMARK_RENDERER: '{}' is unknown; use auto, host or gl", word);
+  }
+  const auto asked = named.value_or(RendererKind::automatic);
   renderer_ = device_ == nullptr ? RendererKind::host : renderer::chosen_kind(asked, device_.get());
   if (asked == renderer_) {
     renderer_reason_ = "TIDEMARK_RENDERER asks for it";

@@ -52,6 +52,8 @@ class Engine : public QObject {
   // TIDEMARK_RENDERER=gl|host overrides the choice; without OpenGL the processor draws all the same.
   [[nodiscard]] renderer::RendererKind renderer() const { return renderer_; }
   [[nodiscard]] const std::string& renderer_reason() const { return renderer_reason_; }
+  // What is wrong with TIDEMARK_RENDERER, which counts as unset then; empty: nothing.
+  [[nodiscard]] const std::string& renderer_problem() const { return renderer_problem_; }
   // How finished pictures of OpenGL's reach the views: as textures that their contexts share, or read back.
   // With a GPU the former; the environment's TIDEMARK_PICTURES=textures|images overrides the choice.
   enum class Pictures { textures, images };
@@ -120,6 +122,7 @@ class Engine : public QObject {
   Graphics graphics_ = Graphics::none;
   renderer::RendererKind renderer_ = renderer::RendererKind::host;
   std::string renderer_reason_;
+  std::string renderer_problem_;
   Pictures pictures_ = Pictures::images;
   std::string graphics_problem_;
   std::atomic<int> contexts_made_{0};

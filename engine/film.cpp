@@ -23,12 +23,7 @@ class Camera {
       : renderer_(std::move(renderer)), view_(std::move(view)), size_(size), film_(film) {}
 
   Status shoot(const solver::Executor& executor, const std::stop_token& stop) {
-    auto phi = executor.snapshot();
-    if (!phi) return pass_on(phi);
-    TIDEMARK_TRY(renderer_->set_phi(std::move(*phi)));
-    renderer_->set_parameters(executor.parameters());
-    renderer_->set_speed(executor.speed());
-    TIDEMARK_TRY(renderer_->set_constraints(executor.constraints().get()));
+    TIDEMARK_TRY(renderer::show(*renderer_, executor));
     const auto picture = std::visit(
         [&](const auto& view) -> Result<renderer::Picture> {
           return renderer_->draw(view, size_, Progress{nullptr, stop});

@@ -12,7 +12,7 @@ constexpr int kShare = 10;  // one part in so many of the time may be spent on l
 
 void LeakWatch::set_rule(const std::optional<document::LeakRule>& rule) {
   if (rule_ == rule) return;
-  if (!rule_) restart();
+  if (!rule_) started_ = false;
   if (!rule) patches_.reset();
   rule_ = rule;
 }
@@ -45,23 +45,47 @@ Result<std::int64_t> LeakWatch::begin(const document::LevelSet& level_set, std::
   return std::min(steps, kSteps);
 }
 
-Result<std::optional<LeakAlarm>> LeakWatch::look(const document::LevelSet& level_set) {
-  std::optional<LeakAlarm> alarm;
-  if (!rule_ || !started_ || !affordable()) return alarm;
+Status LeakWatch::look(const document::LevelSet& level_set) {
+  if (!rule_ || !started_ || !affordable()) return {};
+  std::shared_ptr<const LeakAlarm> alarm;
   TIDEMARK_TRY(spend_on([&]() -> Status {
-    const auto arrived = patches_->look(level_set.executor());
-    if (!arrived) return tl::unexpected<Error>(arrived.error());
+    auto arrived = patches_->look(level_set.executor());
+    if (!arrived) return pass_on(arrived);
     steps_of_looks_.resize(static_cast<std::size_t>(patches_->looks()) + 1);
     steps_of_looks_.back() = level_set.step();
     if (*arrived == 0) return {};
     auto leak = finder_.find(*patches_, *rule_);
     if (!leak) return {};
     const auto before = static_cast<std::size_t>(std::max(leak->passed - 1, 0));
-    alarm = LeakAlarm{std::move(*leak), level_set.step(), steps_of_looks_[before]};
+    alarm = std::make_shared<const LeakAlarm>(
+        LeakAlarm{std::move(*leak), level_set.step(), steps_of_looks_[before]});
     return {};
   }));
-  if (alarm) restart();
-  return alarm;
+  if (!alarm) return {};
+  started_ = false;
+  alarm_ = std::move(alarm);
+  return {};
+}
+
+Result<solver::AdvanceReport> LeakWatch::advance(document::LevelSet& level_set, const solver::Advance& run) {
+  forget_alarm();
+  solver::AdvanceReport all;
+  while (all.steps < run.steps && !alarm_) {
+    auto steps = begin(level_set, run.steps - all.steps);
+    if (!steps) return pass_on(steps);
+    const auto part = level_set.advance({*steps, run.until_converged, run.progress});
+    if (!part) return part;
+    all.steps += part->steps;
+    all.seconds += part->seconds;
+    all.paging_seconds += part->paging_seconds;
+    all.voxel_updates += part->voxel_updates;
+    all.surface_speed = part->surface_speed;
+    // No window of its measure may have ended in this part.
+    all.converged = (all.converged || part->converged) && part->surface_speed < solver::kConvergedSpeed;
+    if (part->steps < *steps || (part->converged && run.until_converged)) break;
+    TIDEMARK_TRY(look(level_set));
+  }
+  return all;
 }
 
 }  // namespace tidemark::engine

@@ -45,6 +45,10 @@ class NewestQuestion {
     Answer answer;
   };
   [[nodiscard]] const std::optional<Answered>& answer() const { return answer_; }
+  // The answer to the question that was last asked; null while it is not there.
+  [[nodiscard]] const Answer* newest() const {
+    return answer_ && asked_ == answer_->question ? &answer_->answer : nullptr;
+  }
   [[nodiscard]] bool waits() const { return job_ != nullptr; }
 
  private:
@@ -55,7 +59,10 @@ class NewestQuestion {
           auto answered = std::make_shared<Answered>(Answered{question, work(question, job.stop())});
           job.deliver([this, answered] { take(std::move(*answered)); });
         },
-        [this](const Error&) { job_.reset(); });
+        [this, question = *asked_](const Error&) {
+          job_.reset();
+          if (asked_ != question) start();
+        });
   }
   // The receiver may ask something else, or forget, on the answer.
   void take(Answered answered) {

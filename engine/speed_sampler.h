@@ -3,15 +3,13 @@
 
 #include <QObject>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "engine/background_job.h"
+#include "engine/newest_question.h"
 #include "solver/speed/speed_function.h"
 
 namespace tidemark::engine {
 
-// The newest question wins; the one that is being answered is answered to its end.
 class SpeedSampler : public QObject {
   Q_OBJECT
  public:
@@ -23,23 +21,18 @@ class SpeedSampler : public QObject {
     bool operator==(const Question&) const = default;
   };
 
-  explicit SpeedSampler(QObject* parent = nullptr) : QObject(parent) {}
-  ~SpeedSampler() override;
+  explicit SpeedSampler(QObject* parent = nullptr);
 
+  // Without a speed: nothing is asked any more.
   void ask(const Question& question);
-  // The values of the question that was last asked, x fastest; none while they are not there.
-  [[nodiscard]] const std::optional<std::vector<double>>& answer() const { return answer_; }
+  // The values of the question that was last asked, x fastest; null while they are not there.
+  [[nodiscard]] const std::vector<double>* answer() const { return question_.newest(); }
 
  signals:
-  void answered();
+  void answered();  // with the values of the question that was last asked
 
  private:
-  void start();
-  void take(const Question& question, std::vector<double> values);
-
-  Question question_;
-  std::optional<std::vector<double>> answer_;
-  std::shared_ptr<BackgroundJob> job_;  // while one runs
+  NewestQuestion<Question, std::vector<double>> question_;
 };
 
 }  // namespace tidemark::engine

@@ -2,23 +2,20 @@
 
 #include <utility>
 
-#include "engine/background_job.h"
+#include "core/without_exceptions.h"
 
 namespace tidemark::engine {
 
-StateComparison::StateComparison(AskForPhi ask, QObject* parent) : QObject(parent), ask_(std::move(ask)) {}
-
-StateComparison::~StateComparison() {
-  if (job_) job_->abandon();
-}
+StateComparison::StateComparison(AskForPhi ask, QObject* parent)
+    : QObject(parent),
+      ask_(std::move(ask)),
+      question_(this, &StateComparison::agreement_of, [this] { emit changed(); }) {}
 
 void StateComparison::choose(std::optional<std::uint64_t> state) {
   if (state == chosen_) return;
   chosen_ = state;
   phi_.reset();
-  compared_.reset();
-  agreement_.reset();
-  if (job_) std::exchange(job_, nullptr)->abandon();
+  question_.forget();
   emit changed();
   if (!chosen_) return;
   ask_(*chosen_, [this, asked = *chosen_](Phi phi) {
@@ -38,23 +35,21 @@ void StateComparison::follow(const CaseState& state) {
 }
 
 void StateComparison::compare() {
-  if (!phi_ || !present_ || present_ == compared_ || job_) return;
-  job_ = BackgroundJob::start(
-      this,
-      [this, present = present_, other = phi_](BackgroundJob& job) {
-        auto found = solver::agreement(*present, *other, {nullptr, job.stop()});
-        job.deliver([this, present, found = std::move(found)]() mutable { take(present, std::move(found)); });
-      },
-      [this, present = present_](const Error& error) { take(present, tl::unexpected<Error>(error)); });
+  if (phi_ && present_) question_.ask({present_, phi_});
 }
 
 // What could not be computed, for lack of memory, is not known.
-void StateComparison::take(const Phi& present, Result<solver::SurfaceAgreement> found) {
-  job_.reset();
-  compared_ = present;
-  agreement_ = found ? std::optional(*found) : std::nullopt;
-  emit changed();
-  compare();
+StateComparison::Agreement StateComparison::agreement_of(const Question& question,
+                                                         const std::stop_token& stop) {
+  const auto found = without_exceptions([&] {
+    return solver::agreement(*question.present, *question.other, {nullptr, stop});
+  });
+  return found ? Agreement(*found) : std::nullopt;
+}
+
+const StateComparison::Agreement& StateComparison::agreement() const {
+  static const Agreement kUnknown;
+  return question_.answer() ? question_.answer()->answer : kUnknown;
 }
 
 }  // namespace tidemark::engine

@@ -8,22 +8,21 @@
 #include <optional>
 
 #include "engine/case_state.h"
+#include "engine/newest_question.h"
 #include "solver/surface_agreement.h"
 
 namespace tidemark::engine {
-
-class BackgroundJob;
 
 // Lives on the thread of the user interface; figures are computed on another one, when the surface rests.
 class StateComparison : public QObject {
   Q_OBJECT
  public:
   using Phi = std::shared_ptr<const solver::Field>;
+  using Agreement = std::optional<solver::SurfaceAgreement>;
   // Asks for phi of a state; the answer comes later, null when there is none any more, or never.
   using AskForPhi = std::function<void(std::uint64_t state, std::function<void(Phi)> answer)>;
 
   explicit StateComparison(AskForPhi ask, QObject* parent = nullptr);
-  ~StateComparison() override;
 
   // Unset: nothing is compared any more.
   void choose(std::optional<std::uint64_t> state);
@@ -34,22 +33,26 @@ class StateComparison : public QObject {
   // Of the chosen state; null until it is there.
   [[nodiscard]] const Phi& phi() const { return phi_; }
   // With the present surface, as it was when it last rested; unset until it is known.
-  [[nodiscard]] const std::optional<solver::SurfaceAgreement>& agreement() const { return agreement_; }
+  [[nodiscard]] const Agreement& agreement() const;
 
  signals:
   void changed();
 
  private:
+  struct Question {
+    Phi present;
+    Phi other;
+
+    bool operator==(const Question&) const = default;
+  };
+  static Agreement agreement_of(const Question& question, const std::stop_token& stop);
   void compare();
-  void take(const Phi& present, Result<solver::SurfaceAgreement> found);
 
   AskForPhi ask_;
   std::optional<std::uint64_t> chosen_;
   Phi phi_;
-  Phi present_;   // the newest
-  Phi compared_;  // with which agreement_ is
-  std::optional<solver::SurfaceAgreement> agreement_;
-  std::shared_ptr<BackgroundJob> job_;  // while one runs
+  Phi present_;  // the newest
+  NewestQuestion<Question, Agreement> question_;
 };
 
 }  // namespace tidemark::engine

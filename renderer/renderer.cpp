@@ -1,5 +1,7 @@
 #include "renderer/renderer.h"
 
+#include <utility>
+
 #include "gpu/device.h"
 #include "renderer/gl/gl_renderer.h"
 #include "renderer/host/host_renderer.h"
@@ -20,12 +22,21 @@ RendererKind chosen_kind(RendererKind asked, const gpu::Device* device) {
 
 Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, std::shared_ptr<gpu::Device> device,
                                                 std::shared_ptr<const Volume> source,
-                                                const solver::PageLayout& layout) {
+                                                const solver::PageLayout& layout, int threads) {
   if (chosen_kind(kind, device.get()) == RendererKind::host) {
-    return HostRenderer::create(std::move(source), layout);
+    return HostRenderer::create(std::move(source), layout, threads);
   }
   if (device == nullptr) return fail(ErrorKind::capability, "the renderer 'gl' needs OpenGL 3.3");
   return GlRenderer::create(std::move(device), std::move(source), layout);
+}
+
+Status show(Renderer& renderer, const solver::Executor& executor) {
+  auto phi = executor.snapshot();
+  if (!phi) return pass_on(phi);
+  TIDEMARK_TRY(renderer.set_phi(std::move(*phi)));
+  renderer.set_parameters(executor.parameters());
+  renderer.set_speed(executor.speed());
+  return renderer.set_constraints(executor.constraints().get());
 }
 
 }  // namespace tidemark::renderer

@@ -91,11 +91,15 @@ std::optional<RendererKind> renderer_named(std::string_view name);
 // The kind that is meant on a device, which may be null: host or gl.
 RendererKind chosen_kind(RendererKind asked, const gpu::Device* device);
 
-// Pictures of level sets on `source` in pages of this layout. Only gl uses the device. Fails
-// (ErrorKind::usage) when the layout is not of the source, (ErrorKind::capability) when the driver lacks what
-// is needed.
+// Pictures of level sets on `source` in pages of this layout. Only gl uses the device, only host the threads
+// (0: all processors of this process). Fails (ErrorKind::usage) when the layout is not of the source,
+// (ErrorKind::capability) when the driver lacks what is needed.
 Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, std::shared_ptr<gpu::Device> device,
                                                 std::shared_ptr<const Volume> source,
-                                                const solver::PageLayout& layout);
+                                                const solver::PageLayout& layout, int threads = 0);
+
+// Shows a copy of what an executor has now: phi, its parameters, and what drives and holds the surface. Fails
+// as snapshot(), set_phi() and set_constraints() do.
+Status show(Renderer& renderer, const solver::Executor& executor);
 
 }  // namespace tidemark::renderer

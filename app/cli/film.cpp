@@ -118,12 +118,7 @@ Status shoot_evolution(Camera& camera, Scene& scene, const document::Recipe& rec
   options.watch_every = every;
   options.watch = [&](solver::Executor& executor, std::int64_t) -> Status {
     if (console.interrupted()) return cancelled_error();
-    auto phi = executor.snapshot();
-    if (!phi) return pass_on(phi);
-    TIDEMARK_TRY(scene.renderer->set_phi(std::move(*phi)));
-    scene.renderer->set_parameters(executor.parameters());
-    scene.renderer->set_speed(executor.speed());
-    TIDEMARK_TRY(scene.renderer->set_constraints(executor.constraints().get()));
+    TIDEMARK_TRY(renderer::show(*scene.renderer, executor));
     return camera.shoot({nullptr, console.progress().stop});
   };
   auto evolution = document::evolve(recipe, scene.source, options, console.progress());
@@ -160,9 +155,11 @@ Status run(Program& program, const FilmOptions& options) {
     for (const std::string& difference : document::differences(recipe, *scene->source))
       console.warn(difference);
     TIDEMARK_TRY(give_images(recipe, options.render.drive, scene->source->geometry, console));
-    const auto end = document::evolve(recipe, scene->source, on_host(), console.progress());
-    if (!end) return tl::unexpected<Error>(end.error());
-    place(*scene, options.render, end->phi);
+    if (goes_by_surface(options.render)) {
+      auto end = document::evolve(recipe, scene->source, on_host(), console.progress());
+      if (!end) return pass_on(end);
+      place(*scene, options.render, end->phi);
+    }
   }
 
   const double per_second = options.per_second.value_or(kPicturesPerSecond);

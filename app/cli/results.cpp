@@ -201,13 +201,15 @@ Status ResultWriter::stage(const RunResults& results) {
   return stage_text(options_.recipe, *text);
 }
 
-// The slices go through the middle of the segmented region, and the camera looks at it.
+// The slices go through the middle of the segmented region, and the camera looks at it. As many threads draw
+// as have computed.
 Result<renderer::Picture> ResultWriter::draw(const RunResults& results) {
-  auto renderer =
-      renderer::make_renderer(renderer_.kind, renderer_.device, results.source, results.phi.layout);
+  auto renderer = renderer::make_renderer(renderer_.kind, renderer_.device, results.source,
+                                          results.phi.layout, results.figures.threads);
   if (!renderer) return pass_on(renderer);
   TIDEMARK_TRY((*renderer)->set_phi(results.phi));
   (*renderer)->set_parameters(results.figures.parameters);
+  (*renderer)->set_speed(results.speed);
   constexpr renderer::PictureSize kSize{1200, 800};
   renderer::SheetView view;
   view.position_mm = renderer::middle_of(results.mask);

@@ -103,6 +103,11 @@ void place(Scene& scene, const RenderOptions& options, const solver::Field& phi)
   }
 }
 
+bool goes_by_surface(const RenderOptions& options) {
+  const bool has_volume = options.view == "3d" || options.view == "sheet";
+  return (options.fit && has_volume) || (options.view != "3d" && !options.at);
+}
+
 Result<Scene> make_scene(const RenderOptions& options, Views views, Console& console,
                          const imaging::GridPolicy& otherwise) {
   const auto chosen = choose_renderer(options.renderer);

@@ -22,8 +22,11 @@ struct Scene {
 Result<Scene> make_scene(const RenderOptions& options, Views views, Console& console,
                          const imaging::GridPolicy& otherwise = {});
 
-// Fills in the facts of the study: its middle and its common values.
+// Fills in the facts of the study: its common values, and the middle of its surface.
 void place(Scene& scene, const RenderOptions& options, const solver::Field& phi);
+
+// Whether what place() fills in depends on the surface.
+[[nodiscard]] bool goes_by_surface(const RenderOptions& options);
 
 Result<renderer::Picture> draw(Scene& scene, const RenderOptions& options, const Progress& progress);
 

@@ -39,7 +39,8 @@ void add_solver_options(CLI::App& app, SolverOptions& options, const std::string
 }
 
 void add_host_options(CLI::App& app, SolverOptions& options) {
-  add_count(app, "--threads", options.threads, "Threads of the host executor (default: all processors)");
+  add_count(app, "--threads", options.threads,
+            "Threads of the host executor, and of pictures that the host draws (default: all processors)");
   add_count(app, "--memory-budget", options.memory_budget_mb,
             "Most memory for the solver, in MB (default: half of what this process may use, by machine or\n"
             "control group); a run that needs more ends with code 4");

@@ -41,6 +41,7 @@ void add(std::string& all, std::string_view name, std::string_view value) {
 
 void add_graphics(std::string& all, const Diagnostics& d) {
   add(all, "renderer", d.renderer.empty() ? "" : fmt::format("{}, as {}", d.renderer, d.renderer_reason));
+  if (!d.renderer_problem.empty()) add(all, "renderer problem", d.renderer_problem);
   add(all, "graphics", d.graphics);
   if (!d.graphics_problem.empty()) add(all, "graphics problem", d.graphics_problem);
   if (!d.opengl) return;

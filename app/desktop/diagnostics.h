@@ -19,8 +19,9 @@ struct Diagnostics {
   std::string graphics;          // the outcome: "hardware", "software" or "none"
   std::string graphics_problem;  // why not more; may be empty
   std::optional<gpu::Capabilities> opengl;
-  std::string renderer;         // who draws: "gl" or "host"
-  std::string renderer_reason;  // why
+  std::string renderer;          // who draws: "gl" or "host"
+  std::string renderer_reason;   // why
+  std::string renderer_problem;  // what is wrong with how it was asked for; may be empty
 
   std::string automatic_executor;  // the choice of `auto` here: "compute" or "host"
   std::string instruction_set;     // of the host executor

@@ -43,6 +43,7 @@ void print_diagnostics(const engine::Engine& engine) {
   if (engine.graphics() != engine::Engine::Graphics::none) diagnostics.opengl = engine.capabilities();
   diagnostics.renderer = engine.renderer() == renderer::RendererKind::gl ? "gl" : "host";
   diagnostics.renderer_reason = engine.renderer_reason();
+  diagnostics.renderer_problem = engine.renderer_problem();
   const bool compute =
       engine.graphics() == engine::Engine::Graphics::hardware && engine.capabilities().at_least(4, 5);
   diagnostics.automatic_executor = compute ? "compute" : "host";
@@ -104,6 +105,9 @@ int main(int argc, char** argv) {
   parser.process(application);
 
   engine::Engine engine(!parser.isSet(without_opengl));
+  if (const std::string& problem = engine.renderer_problem(); !problem.empty()) {
+    std::fprintf(stderr, "tidemark: %s\n", problem.c_str());
+  }
   if (parser.isSet(diagnostics)) {
     print_diagnostics(engine);
     return 0;

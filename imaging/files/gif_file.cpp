@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
-#include <string>
+#include <cstdio>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -21,27 +23,40 @@ constexpr double kMostSeconds = 655.35;
 }  // namespace
 
 struct GifFile::Writer {
-  std::filesystem::path file;
-  std::int64_t width = 0;
-  std::int64_t height = 0;
-  int hundredths = 0;
-  std::string bytes;
-  GifFileType* gif = nullptr;
-  std::vector<GifByteType> red, green, blue, indices;
-
+  explicit Writer(AtomicFile made) : file(std::move(made)) {}
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
   ~Writer() {
     int ignored = 0;
     if (gif != nullptr) EGifCloseFile(gif, &ignored);
+    if (stream != nullptr) std::fclose(stream);
   }
+
   [[nodiscard]] tl::unexpected<Error> failed(int code) const {
+    if (error != 0) {
+      return fail(ErrorKind::write, "{}: cannot write: {}", target.string(),
+                  std::generic_category().message(error));
+    }
     const char* why = GifErrorString(code);
-    return fail(ErrorKind::write, "{}: {}", file.string(), why != nullptr ? why : "no GIF can be made of it");
+    return fail(ErrorKind::write, "{}: {}", target.string(),
+                why != nullptr ? why : "no GIF can be made of it");
   }
   static int append(GifFileType* gif, const GifByteType* bytes, int count) {
-    static_cast<std::string*>(gif->UserData)
-        ->append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
-    return count;
+    auto& writer = *static_cast<Writer*>(gif->UserData);
+    const auto size = static_cast<std::size_t>(count);
+    if (writer.error == 0 && std::fwrite(bytes, 1, size, writer.stream) != size) writer.error = errno;
+    return writer.error == 0 ? count : 0;
   }
+
+  AtomicFile file;
+  std::filesystem::path target;
+  std::FILE* stream = nullptr;
+  int error = 0;  // errno of the first write that failed
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  int hundredths = 0;
+  GifFileType* gif = nullptr;
+  std::vector<GifByteType> red, green, blue, indices;
 };
 
 GifFile::GifFile(std::unique_ptr<Writer> writer) : writer_(std::move(writer)) {}
@@ -55,13 +70,18 @@ Result<GifFile> GifFile::create(std::int64_t width, std::int64_t height, double 
     return fail(ErrorKind::write, "{}: a GIF has 1 to {} pixels along an edge, not {} x {}", file.string(),
                 kLargest, width, height);
   }
-  auto writer = std::make_unique<Writer>();
-  writer->file = file;
+  auto made = AtomicFile::create(file);
+  if (!made) return pass_on(made);
+  auto writer = std::make_unique<Writer>(std::move(*made));
+  writer->target = file;
+  writer->stream = std::fopen(writer->file.temporary_path().c_str(), "wbe");
+  if (writer->stream == nullptr) writer->error = errno;
+  if (writer->error != 0) return writer->failed(0);
   writer->width = width;
   writer->height = height;
   writer->hundredths = static_cast<int>(std::lround(100.0 * std::clamp(seconds, 0.01, kMostSeconds)));
   int code = 0;
-  writer->gif = EGifOpen(&writer->bytes, &Writer::append, &code);
+  writer->gif = EGifOpen(writer.get(), &Writer::append, &code);
   if (writer->gif == nullptr) return writer->failed(code);
   EGifSetGifVersion(writer->gif, true);
   // An application extension of its own makes readers begin again at the end.
@@ -81,7 +101,7 @@ Status GifFile::add(std::span<const std::uint8_t> pixels) {
   Writer& w = *writer_;
   const auto count = static_cast<std::size_t>(w.width * w.height);
   if (pixels.size() != 4 * count) {
-    return fail(ErrorKind::internal, "{}: {} bytes are not {} x {} pixels", w.file.string(), pixels.size(),
+    return fail(ErrorKind::internal, "{}: {} bytes are not {} x {} pixels", w.target.string(), pixels.size(),
                 w.width, w.height);
   }
   for (auto* channel : {&w.red, &w.green, &w.blue, &w.indices}) channel->resize(count);
@@ -118,9 +138,12 @@ Status GifFile::add(std::span<const std::uint8_t> pixels) {
 }
 
 Status GifFile::finish() {
+  Writer& w = *writer_;
   int code = 0;
-  if (EGifCloseFile(std::exchange(writer_->gif, nullptr), &code) == GIF_ERROR) return writer_->failed(code);
-  return write_file(writer_->file, writer_->bytes);
+  const bool closed = EGifCloseFile(std::exchange(w.gif, nullptr), &code) == GIF_OK;
+  if (std::fclose(std::exchange(w.stream, nullptr)) != 0 && w.error == 0) w.error = errno;
+  if (!closed || w.error != 0) return w.failed(code);
+  return w.file.commit();
 }
 
 }  // namespace tidemark::imaging

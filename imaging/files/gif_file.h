@@ -13,8 +13,8 @@ namespace tidemark::imaging {
 // Each picture has a palette of its own of 256 colours, the nearest to its own. It plays for ever.
 class GifFile {
  public:
-  // The file appears whole with finish(), or not at all. A picture stays for `seconds`, in hundredths. Fails
-  // (ErrorKind::write); sizes are from 1 to 65535 pixels.
+  // Pictures are written as they come; the file appears whole with finish(), or not at all. A picture stays
+  // for `seconds`, in hundredths. Fails (ErrorKind::write); sizes are from 1 to 65535 pixels.
   static Result<GifFile> create(std::int64_t width, std::int64_t height, double seconds,
                                 const std::filesystem::path& file);
   ~GifFile();

@@ -21,6 +21,7 @@ class CliFilesTest : public QObject {
   void distance_is_signed_and_in_millimetres();
   void formats_keep_values_and_geometry();
   void a_mask_becomes_a_surface();
+  void a_runs_picture_shows_its_own_speed();
   void pictures_are_drawn_from_masks_and_fields_data();
   void pictures_are_drawn_from_masks_and_fields();
 
@@ -91,6 +92,22 @@ void CliFilesTest::a_mask_becomes_a_surface() {
   const Outcome labels =
       must_run({"convert", text(sphere_ / "series"), "--mask", "--out", text(folder_ / "nonzero.nii.gz")});
   QCOMPARE(labels.code, 0);
+}
+
+// The same surface, before the first step, driven by the tent alone and by another function, too.
+void CliFilesTest::a_runs_picture_shows_its_own_speed() {
+  const TemporaryFolder folder;
+  const auto file = folder / "ball.nrrd";
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(32), 10.0), file)), QString());
+  const auto picture = [&](const QStringList& speed) {
+    const auto to = folder / "picture.png";
+    must_run(QStringList{"segment", text(file)} + ball_arguments(Index3(32)) + speed +
+             QStringList{"--steps", "0", "--out", text(folder / "mask.nrrd"), "--picture", text(to)});
+    return bytes_of(to);
+  };
+  const QByteArray of_tent = picture({});
+  QVERIFY(of_tent == picture({"--speed", "tent"}));
+  QVERIFY(of_tent != picture({"--speed", "tent", "--speed", "edges"}));
 }
 
 void CliFilesTest::pictures_are_drawn_from_masks_and_fields_data() {

@@ -66,6 +66,13 @@ class DiagnosticsTest : public QObject {
     QVERIFY(!has(all, "3d texture"));
   }
 
+  void an_unknown_renderer_is_told() {
+    desktop::Diagnostics d = example();
+    QVERIFY(!has(desktop::text(d), "renderer problem"));
+    d.renderer_problem = "TIDEMARK_RENDERER: 'fast' is unknown";
+    QVERIFY(has(desktop::text(d), "renderer problem:   TIDEMARK_RENDERER: 'fast' is unknown\n"));
+  }
+
   void an_opengl_before_compute_shaders_says_so() {
     desktop::Diagnostics d = example();
     d.opengl->minor = 1;

@@ -14,6 +14,7 @@
 #include "core/atomic_file.h"
 #include "document/session_file.h"
 #include "imaging/dicom/dicom.h"
+#include "imaging/files/gif_file.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/load_study.h"
@@ -84,6 +85,13 @@ Contents make_contents(unsigned version) {
   return made;
 }
 
+Status write_film(const Contents& of, const fs::path& to) {
+  auto film = imaging::GifFile::create(40, 30, 0.1, to);
+  if (!film) return pass_on(film);
+  for (int picture = 0; picture < 3; ++picture) TIDEMARK_TRY(film->add(of.pixels));
+  return film->finish();
+}
+
 struct Writer {
   const char* name;  // of the file or folder
   std::function<Status(const Contents&, const fs::path&)> write;
@@ -113,6 +121,7 @@ const std::vector<Writer>& writers() {
       {"phi.vdb", [](const auto& of, const auto& to) { return imaging::write_level_set(of.phi, 4.0, to); }},
       {"picture.png",
        [](const auto& of, const auto& to) { return imaging::write_png_file(40, 30, of.pixels, to); }},
+      {"film.gif", write_film},
       {"case.tidemark",
        [](const auto& of, const auto& to) { return document::write_session(of.session, to); }},
       {"recipe.json",

@@ -11,7 +11,7 @@
 #include "engine/case_proxy.h"
 #include "engine/case_runner.h"
 #include "engine/engine.h"
-#include "tests/engine/ball_study.h"
+#include "tests/engine/ball_case.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -23,27 +23,16 @@ namespace {
 constexpr int kPatience = 60'000;  // ms
 
 // A case with a surface that has been edited, and its copies.
-struct Edited {
+struct Edited : test::BallCase {
   explicit Edited(std::filesystem::path folder, solver::ExecutorKind executor = solver::ExecutorKind::host)
-      : engine(executor != solver::ExecutorKind::host),
-        proxy(engine, test::ball_study(), executor),
+      : BallCase(executor, executor != solver::ExecutorKind::host),
         autosave(proxy, std::move(folder), [] { return std::string(); }) {
-    QObject::connect(&proxy, &engine::CaseProxy::failed, [this](const QString& why) { failures << why; });
-    document::Start start;
-    start.seeds.push_back({renderer::middle_of(proxy.volume().geometry), 4.0});
-    proxy.begin(start);
+    begin();
     proxy.step(3);
     wait_until_idle();
   }
-  void wait_until_idle() {
-    static_cast<void>(QTest::qWaitFor([this] { return engine.idle(); }, kPatience));
-    QCoreApplication::processEvents();
-  }
 
-  engine::Engine engine;
-  engine::CaseProxy proxy;
   engine::CaseAutosave autosave;
-  QStringList failures;
 };
 
 class Unclosable final : public document::OpenChange {

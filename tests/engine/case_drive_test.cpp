@@ -1,11 +1,10 @@
 // A speed function is made in the background and drives the surface from then on.
-#include <QTest>
 #include <algorithm>
+#include <optional>
 
-#include "engine/case_proxy.h"
 #include "engine/speed_sampler.h"
 #include "solver/speed/speed_registry.h"
-#include "tests/engine/ball_study.h"
+#include "tests/engine/ball_case.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test {
@@ -15,16 +14,10 @@ class CaseDriveTest : public QObject {
 
  private slots:
   void init() {
-    engine_ = std::make_unique<engine::Engine>(false);
-    proxy_ = std::make_unique<engine::CaseProxy>(*engine_, ball_study(), solver::ExecutorKind::host);
-    failures_.clear();
-    connect(proxy_.get(), &engine::CaseProxy::failed, this, [this](const QString& why) { failures_ += why; });
-    wait_until_idle();
+    ball_.emplace();
+    proxy_ = &ball_->proxy;
   }
-  void cleanup() {
-    proxy_.reset();
-    engine_.reset();
-  }
+  void cleanup() { ball_.reset(); }
 
   void a_function_is_made_and_undone() {
     document::Drive drive = proxy_->drive();
@@ -32,7 +25,7 @@ class CaseDriveTest : public QObject {
     proxy_->set_drive(drive);
     QCOMPARE(proxy_->drive().setting, drive.setting);  // the wish, at once
     QTRY_VERIFY(proxy_->state().speed && !proxy_->state().speed_waits);
-    QVERIFY(failures_.isEmpty());
+    QVERIFY(ball_->failures.isEmpty());
     QCOMPARE(proxy_->state().drive.setting, drive.setting);
     const auto first = proxy_->state().speed;
 
@@ -49,11 +42,11 @@ class CaseDriveTest : public QObject {
     QTRY_VERIFY(proxy_->state().drive.setting.is_tent());
     QVERIFY(!proxy_->state().speed);
     QCOMPARE(proxy_->drive().setting, solver::SpeedSetting());
-    QVERIFY(failures_.isEmpty());
+    QVERIFY(ball_->failures.isEmpty());
   }
 
   void a_function_that_follows_the_surface_is_seen_before_the_first_step() {
-    const glm::dvec3 middle = renderer::middle_of(proxy_->volume().geometry);
+    const glm::dvec3 middle = ball_->middle();
     const auto speed_at = [&](glm::dvec3 place_mm) {
       double speed = 0.0;
       const Index3 voxel(glm::round(proxy_->volume().geometry.to_voxel(place_mm)));
@@ -79,36 +72,36 @@ class CaseDriveTest : public QObject {
     proxy_->step(1);
     QTRY_COMPARE(proxy_->state().step, std::int64_t{1});
     QVERIFY(speed_at(middle) > 0.5);
-    QVERIFY(failures_.isEmpty());
+    QVERIFY(ball_->failures.isEmpty());
   }
 
   void one_that_cannot_be_made_is_told_of_and_the_surface_waits() {
-    begin();
+    ball_->begin();
     document::Drive drive = proxy_->drive();
     drive.setting.terms = {{"image", {}}};  // there is no map
     proxy_->set_drive(drive);
-    QTRY_COMPARE(failures_.size(), 1);
-    QVERIFY2(failures_.front().contains("map"), qPrintable(failures_.front()));
+    QTRY_COMPARE(ball_->failures.size(), 1);
+    QVERIFY2(ball_->failures.front().contains("map"), qPrintable(ball_->failures.front()));
     proxy_->play();
-    QTRY_COMPARE(failures_.size(), 2);
+    QTRY_COMPARE(ball_->failures.size(), 2);
     QTRY_VERIFY(!proxy_->state().playing);
     QCOMPARE(proxy_->state().step, std::int64_t{0});
     // With the tent it goes on.
     proxy_->set_drive({});
     proxy_->play();
     QTRY_VERIFY(proxy_->state().step > 0);
-    QCOMPARE(failures_.size(), 2);
+    QCOMPARE(ball_->failures.size(), 2);
   }
 
   void undo_to_another_function_does_not_wait_for_it() {
-    begin();
+    ball_->begin();
     proxy_->set_drive(learning(10.0));
     QTRY_VERIFY(proxy_->state().speed);
     const auto first = proxy_->state().speed;
     proxy_->set_drive(learning(200.0));
     QTRY_VERIFY(proxy_->state().speed != first && !proxy_->state().speed_waits);
     bool seen_without = false;
-    connect(proxy_.get(), &engine::CaseProxy::state_changed, this,
+    connect(proxy_, &engine::CaseProxy::state_changed, this,
             [&] { seen_without |= proxy_->state().speed_waits && !proxy_->state().speed; });
     proxy_->undo();
     proxy_->play();
@@ -116,21 +109,21 @@ class CaseDriveTest : public QObject {
     QVERIFY(seen_without);
     QVERIFY(proxy_->state().speed);
     QCOMPARE(proxy_->state().drive.setting.terms.front().values.at("trees"), 10.0);
-    QVERIFY(failures_.isEmpty());
+    QVERIFY(ball_->failures.isEmpty());
   }
 
   void the_source_is_smoothed_while_the_surface_moves() {
-    begin();
+    ball_->begin();
     proxy_->set_drive(learning(10.0));
     QTRY_VERIFY(proxy_->state().speed);
     const auto former = proxy_->state().speed;
     proxy_->set_pause_at_convergence(false);
     proxy_->play();
     bool seen_waiting = false;
-    connect(proxy_.get(), &engine::CaseProxy::state_changed, this,
+    connect(proxy_, &engine::CaseProxy::state_changed, this,
             [&] { seen_waiting |= proxy_->state().smoothing == 1.5 && proxy_->state().speed == former; });
     double reported = -1.0;
-    connect(proxy_.get(), &engine::CaseProxy::progressed, this,
+    connect(proxy_, &engine::CaseProxy::progressed, this,
             [&](double fraction, const QString&) { reported = fraction; });
     proxy_->smooth_source(1.5);
     QTRY_COMPARE(proxy_->state().smoothed_mm, 1.5);
@@ -141,7 +134,7 @@ class CaseDriveTest : public QObject {
     QCOMPARE(reported, 1.0);
     const auto step = proxy_->state().step;
     QTRY_VERIFY(proxy_->state().step > step);
-    QVERIFY(failures_.isEmpty());
+    QVERIFY(ball_->failures.isEmpty());
   }
 
   void smoothing_can_be_given_up() {
@@ -151,30 +144,30 @@ class CaseDriveTest : public QObject {
     proxy_->smooth_source(1.0);
     proxy_->undo();
     QTRY_VERIFY(!proxy_->state().smoothing);
-    wait_until_idle();
+    ball_->wait_until_idle();
     QTest::qWait(300);
     QCOMPARE(proxy_->state().smoothed_mm, 3.0);
     proxy_->smooth_source(-1.0);
-    QTRY_COMPARE(failures_.size(), 1);
+    QTRY_COMPARE(ball_->failures.size(), 1);
     QVERIFY(!proxy_->state().smoothing);
     QCOMPARE(proxy_->state().smoothed_mm, 3.0);
   }
 
   void another_target_of_a_joined_tent_learns_nothing_anew() {
-    begin();
+    ball_->begin();
     document::Drive drive = learning(10.0);
     drive.setting.terms.push_back({"tent", {}});
     proxy_->set_drive(drive);
     QTRY_VERIFY(proxy_->state().speed);
     const auto former = proxy_->state().speed;
     bool seen_waiting = false;
-    connect(proxy_.get(), &engine::CaseProxy::state_changed, this,
+    connect(proxy_, &engine::CaseProxy::state_changed, this,
             [&] { seen_waiting |= proxy_->state().speed_waits; });
     solver::Parameters parameters = proxy_->parameters();
     parameters.target += 30.0;
     proxy_->set_parameters(parameters);
     QTRY_VERIFY(proxy_->state().speed != former);
-    wait_until_idle();
+    ball_->wait_until_idle();
     QVERIFY(!seen_waiting);
     QCOMPARE(proxy_->state().parameters.target, parameters.target);
   }
@@ -200,11 +193,6 @@ class CaseDriveTest : public QObject {
   }
 
  private:
-  void begin() {
-    document::Start start;
-    start.seeds.push_back({renderer::middle_of(proxy_->volume().geometry), 4.0});
-    proxy_->begin(start);
-  }
   [[nodiscard]] document::Drive learning(double trees) const {
     auto strokes = std::make_shared<solver::Strokes>();
     for (std::int64_t offset = 0; offset < proxy_->volume().geometry.voxel_count(); offset += 31)
@@ -214,14 +202,9 @@ class CaseDriveTest : public QObject {
     drive.strokes = std::move(strokes);
     return drive;
   }
-  void wait_until_idle() {
-    QVERIFY(QTest::qWaitFor([this] { return engine_->idle(); }, 60000));
-    QCoreApplication::processEvents();
-  }
 
-  std::unique_ptr<engine::Engine> engine_;
-  std::unique_ptr<engine::CaseProxy> proxy_;
-  QStringList failures_;
+  std::optional<BallCase> ball_;
+  engine::CaseProxy* proxy_ = nullptr;  // its
 };
 
 }  // namespace tidemark::test

@@ -11,7 +11,7 @@
 
 #include "engine/case_runner.h"
 #include "engine/picture_feed.h"
-#include "tests/engine/ball_study.h"
+#include "tests/engine/ball_case.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test {
@@ -20,25 +20,10 @@ namespace {
 constexpr int kPatience = 60000;  // ms
 constexpr renderer::PictureSize kSmall{96, 80};
 
-class Fixture {
- public:
+struct Fixture : BallCase {
   explicit Fixture(solver::ExecutorKind executor = solver::ExecutorKind::host, bool use_opengl = true)
-      : engine(use_opengl), proxy(engine, ball_study(), executor) {
-    QObject::connect(&proxy, &engine::CaseProxy::failed, [this](const QString& why) { failures += why; });
-    wait_until_idle();
-  }
+      : BallCase(executor, use_opengl) {}
 
-  [[nodiscard]] glm::dvec3 middle() const { return renderer::middle_of(proxy.volume().geometry); }
-  void begin(double radius_mm = 4.0) {
-    document::Start start;
-    start.seeds.push_back({middle(), radius_mm});
-    proxy.begin(start);
-    wait_until_idle();
-  }
-  void wait_until_idle() {
-    static_cast<void>(QTest::qWaitFor([this] { return engine.idle(); }, kPatience));
-    QCoreApplication::processEvents();
-  }
   [[nodiscard]] renderer::SliceView slice(renderer::SliceContent content) const {
     renderer::SliceView view;
     view.content = content;
@@ -47,10 +32,6 @@ class Fixture {
     view.window = {50.0, 300.0};
     return view;
   }
-
-  engine::Engine engine;
-  engine::CaseProxy proxy;
-  QStringList failures;
 };
 
 solver::ExecutorKind executor_of_row() {

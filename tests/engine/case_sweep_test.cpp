@@ -1,10 +1,9 @@
 // The sweep of a case, beside the user interface.
 #include "engine/case_sweep.h"
 
-#include <QTest>
+#include <optional>
 
-#include "engine/case_proxy.h"
-#include "tests/engine/ball_study.h"
+#include "tests/engine/ball_case.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test {
@@ -14,16 +13,13 @@ class CaseSweepTest : public QObject {
 
  private slots:
   void init() {
-    engine_ = std::make_unique<engine::Engine>(false);
-    proxy_ = std::make_unique<engine::CaseProxy>(*engine_, ball_study(), solver::ExecutorKind::host);
+    ball_.emplace();
+    proxy_ = &ball_->proxy;
     failures_.clear();
     connect(&proxy_->sweep(), &engine::CaseSweep::failed, this,
             [this](const QString& why) { failures_ << why; });
   }
-  void cleanup() {
-    proxy_.reset();
-    engine_.reset();
-  }
+  void cleanup() { ball_.reset(); }
 
   void without_a_surface_there_is_nothing_to_sweep() {
     proxy_->sweep().start(axes_);
@@ -35,7 +31,7 @@ class CaseSweepTest : public QObject {
   }
 
   void it_ends_with_pictures_and_an_agreement() {
-    begin();
+    ball_->begin(6.0);
     proxy_->sweep().start(axes_);
     QTRY_VERIFY(!proxy_->sweep().running());
     const auto outcome = proxy_->sweep().outcome();
@@ -62,13 +58,13 @@ class CaseSweepTest : public QObject {
     proxy_->sweep().take(2, 0);
     const document::SweepRun& run = proxy_->sweep().outcome()->sweep.at(2, 0);
     QTRY_COMPARE(proxy_->state().step, run.steps);
-    QTRY_VERIFY(engine_->idle());
+    QTRY_VERIFY(ball_->engine.idle());
     QVERIFY(proxy_->state().parameters == run.parameters);
     QTRY_COMPARE(proxy_->state().outcome, run.outcome);
   }
 
   void it_is_given_up_at_once() {
-    begin();
+    ball_->begin(6.0);
     int cancelled = 0;
     connect(&proxy_->sweep(), &engine::CaseSweep::cancelled, this, [&] { ++cancelled; });
     proxy_->sweep().start(axes_);
@@ -80,16 +76,9 @@ class CaseSweepTest : public QObject {
   }
 
  private:
-  void begin() {
-    document::Start start;
-    start.seeds.push_back({renderer::middle_of(proxy_->volume().geometry), 6.0});
-    proxy_->begin(start);
-    QTRY_VERIFY(proxy_->state().begun);
-  }
-
   const std::vector<document::SweepAxis> axes_{{"alpha", 0.4, 0.9, 2}};
-  std::unique_ptr<engine::Engine> engine_;
-  std::unique_ptr<engine::CaseProxy> proxy_;
+  std::optional<BallCase> ball_;
+  engine::CaseProxy* proxy_ = nullptr;  // its
   QStringList failures_;
 };
 

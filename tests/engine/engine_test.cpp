@@ -202,6 +202,18 @@ class EngineTest : public QObject {
     QCOMPARE(renewed.error().kind, ErrorKind::capability);
   }
 
+  void an_unknown_renderer_counts_as_unset_and_is_told() {
+    {
+      const test::Variable renderer("TIDEMARK_RENDERER", "fast");
+      const engine::Engine engine(false);
+      QCOMPARE(engine.renderer_reason(), std::string("there is no OpenGL"));
+      QCOMPARE(engine.renderer_problem(),
+               std::string("TIDEMARK_RENDERER: 'fast' is unknown; use auto, host or gl"));
+    }
+    const test::Variable renderer("TIDEMARK_RENDERER", "host");
+    QCOMPARE(engine::Engine(false).renderer_problem(), std::string());
+  }
+
   void the_context_belongs_to_its_thread_and_can_be_made_anew() {
     engine::Engine engine;
     QVERIFY2(engine.graphics() != engine::Engine::Graphics::none, engine.graphics_problem().c_str());

@@ -1,6 +1,8 @@
 // The processor's own pictures beside OpenGL's of the same views: the same within a few grey levels, and the
 // same bytes for any number of threads.
 #include <QTest>
+#include <filesystem>
+#include <iterator>
 #include <map>
 
 #include "solver/executor.h"
@@ -192,6 +194,17 @@ class RendererAgreementTest : public QObject {
   }
 
   // The host executor's memory is drawn like a copy of it, also after it has grown.
+  void as_many_threads_draw_as_were_asked_for() {
+    const auto threads = [] {
+      return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+    };
+    const Laden laden;
+    const auto before = threads();
+    const auto renderer = renderer::make_renderer(renderer::RendererKind::host, nullptr, laden.scene.source,
+                                                  laden.scene.phi.layout, 4);
+    QCOMPARE(failure(renderer), QString());
+    QCOMPARE(threads(), before + 3);  // and the caller
+  }
   void the_executors_own_memory_gives_the_same_picture() {
     const Scene scene = ball_scene(grid({64, 64, 48}), 22.0);
     solver::Parameters parameters;

@@ -1,10 +1,8 @@
 // The balance of the speed terms at a place foretells the next step, and what would turn it.
 #include "balance_check.h"
 #include "executor_rows.h"
-#include "imaging/filters/filters.h"
-#include "imaging/phantom/phantom.h"
+#include "phantom_problem.h"
 #include "random_problem.h"
-#include "solver/distance_transform.h"
 #include "solver/speed/speed_registry.h"
 #include "tests/support/test_program.h"
 
@@ -62,29 +60,15 @@ class BalanceTest : public QObject {
     QFETCH(QString, kind);
     QFETCH(int, steps);
     QFETCH(int, executor);
-    auto phantom = imaging::make_phantom(kind.toStdString(), {}, {});
-    QCOMPARE(failure(phantom), QString());
-    solver::Parameters parameters;
-    parameters.target = phantom->target;
-    parameters.range = phantom->range;
-    parameters.alpha = phantom->alpha;
-    const auto source = std::make_shared<const Volume>(std::move(phantom->volume));
+    const auto problem = PhantomProblem::make(kind.toStdString());
+    QCOMPARE(failure(problem), QString());
     solver::ExecutorOptions options;
     options.skip_quiet_pages = false;
-    const auto level_set =
-        test::executor(static_cast<solver::ExecutorKind>(executor), source, parameters, options);
-    if (phantom->init_threshold) {
-      const auto& [low, high] = *phantom->init_threshold;
-      const auto start =
-          solver::distance_transform(imaging::threshold(*source, low, high), level_set->band());
-      QCOMPARE(failure(level_set->restore(start)), QString());
-    } else {
-      const auto& [i, j, k, radius_mm] = *phantom->seed;
-      const auto sphere = solver::sphere_at_voxel(source->geometry, {i, j, k}, radius_mm);
-      QCOMPARE(failure(level_set->paint(sphere, solver::Brush::add)), QString());
-    }
+    const auto level_set = test::executor(static_cast<solver::ExecutorKind>(executor), problem->source,
+                                          problem->parameters, options);
+    QCOMPARE(failure(problem->begin(*level_set)), QString());
     run(*level_set, steps);
-    expect_balances_foretell_a_step(*level_set, source);
+    expect_balances_foretell_a_step(*level_set, problem->source);
   }
 
   // Both schemes, both forms of the data term, coarse slices, terms switched off, and walls.

@@ -7,16 +7,13 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QKeyEvent>
-#include <QLabel>
 #include <QMdiSubWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QSet>
 #include <QStackedWidget>
-#include <QStatusBar>
 #include <QToolBar>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 #include "engine/case_balance.h"
@@ -40,8 +37,8 @@
 #include "ui/main/panel_docks.h"
 #include "ui/main/session_reader.h"
 #include "ui/main/session_writer.h"
+#include "ui/main/status_bar.h"
 #include "ui/main/teaching.h"
-#include "ui/main/value_bar.h"
 #include "ui/opening/ask_for_study.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/load_report.h"
@@ -78,7 +75,7 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   teaching_ = new Teaching(*this);
   make_menus(*this, *actions_, {recent_, panels_, teaching_});
   make_tool_bar(*this, *actions_);
-  make_status_bar();
+  setStatusBar(status_bar_ = new StatusBar(engine));
   results_ = new CaseResults(*this);
   images_ = new ImageAdder(*this);
   connect_files();
@@ -124,59 +121,22 @@ void MainWindow::make_centre() {
   });
 }
 
-void MainWindow::make_status_bar() {
-  values_ = new ValueBar;
-  statusBar()->addWidget(values_, 1);
-  value_details_ = new QToolButton;
-  value_details_->setText(tr("Details"));
-  value_details_->setAccessibleName(tr("Details of the values under the mouse"));
-  value_details_->setToolTip(tr("Shows also the terms of the equation under the mouse: D, φ, κ and |∇φ|."));
-  value_details_->setAutoRaise(true);
-  value_details_->setCheckable(true);
-  connect(value_details_, &QToolButton::toggled, values_, &ValueBar::set_detailed);
-  connect(value_details_, &QToolButton::clicked, this, [](bool on) { settings::details("values").set(on); });
-  value_details_->setChecked(settings::details("values").get());
-  value_details_->hide();  // until there is a case
-  statusBar()->addPermanentWidget(value_details_);
-  loading_ = new LoadingView(LoadingView::Shape::line);
-  loading_->hide();
-  statusBar()->addPermanentWidget(loading_);
-  note_renderer();
-}
-
-// Where the processor does what a GPU would do.
-void MainWindow::note_renderer() {
-  const bool drawn_by_host = engine_.renderer() == renderer::RendererKind::host;
-  const bool has_gpu = engine_.graphics() == engine::Engine::Graphics::hardware;
-  if (has_gpu && !drawn_by_host) return;
-  auto* note = new QLabel(drawn_by_host ? tr("Drawn by the processor") : tr("Software OpenGL"));
-  note->setObjectName(QStringLiteral("renderer note"));
-  QStringList text(drawn_by_host ? tr("The processor draws the pictures: %1.")
-                                 : tr("OpenGL draws the pictures, but the processor plays the GPU: %1."));
-  text.front() = text.front().arg(QString::fromStdString(engine_.renderer_reason()));
-  if (engine_.graphics() == engine::Engine::Graphics::none) {
-    text << tr("OpenGL: %1.").arg(QString::fromStdString(engine_.graphics_problem()));
-  }
-  if (!has_gpu) text << tr("The automatic executor is the host's, the processor, too.");
-  note->setToolTip(text.join(QChar(' ')));
-  statusBar()->addPermanentWidget(note);
-}
-
 // Files.
 
 void MainWindow::connect_files() {
-  connect(opener_, &StudyOpener::began, loading_, [this](const QString& what) {
-    loading_->begin(what);
-    loading_->show();
+  LoadingView* loading = &status_bar_->loading();
+  connect(opener_, &StudyOpener::began, loading, [loading](const QString& what) {
+    loading->begin(what);
+    loading->show();
   });
-  connect(opener_, &StudyOpener::progressed, loading_, &LoadingView::set_progress);
-  connect(opener_, &StudyOpener::ended, loading_, &QWidget::hide);
-  connect(opener_, &StudyOpener::failed, this, [this](const QString& message) {
-    loading_->hide();
+  connect(opener_, &StudyOpener::progressed, loading, &LoadingView::set_progress);
+  connect(opener_, &StudyOpener::ended, loading, &QWidget::hide);
+  connect(opener_, &StudyOpener::failed, this, [this, loading](const QString& message) {
+    loading->hide();
     tell(message, kAboutOpening);
   });
   connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { add_case(study); });
-  connect(loading_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
+  connect(loading, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
   connect(recent_, &RecentStudies::chosen, this, &MainWindow::open_recent);
   connect(actions_->open_folder, &QAction::triggered, this, &MainWindow::ask_for_folder);
   connect(actions_->open_file, &QAction::triggered, this, &MainWindow::ask_for_file);
@@ -328,8 +288,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
   }
   engine::CaseProxy* proxy = active_ ? &active_->proxy() : nullptr;
   panels_->set_case(active_);
-  values_->set_proxy(proxy);
-  value_details_->setVisible(proxy != nullptr);
+  status_bar_->set_proxy(proxy);
   if (proxy) {
     active_connections_ << connect(proxy, &engine::CaseProxy::state_changed, this, &MainWindow::follow_case)
                         << connect(&proxy->display(), &engine::Display::changed, this,

@@ -10,7 +10,6 @@
 
 class QMdiSubWindow;
 class QStackedWidget;
-class QToolButton;
 
 namespace tidemark::engine {
 struct LoadedStudy;
@@ -25,15 +24,14 @@ class CaseFiles;
 class CaseLinks;
 class CaseResults;
 class ImageAdder;
-class LoadingView;
 class MessageBar;
 class PanelDocks;
 class RecentStudies;
 class SessionReader;
 class SessionWriter;
+class StatusBar;
 class StudyOpener;
 class Teaching;
-class ValueBar;
 struct RecentStudy;
 
 class MainWindow : public QMainWindow {
@@ -79,8 +77,6 @@ class MainWindow : public QMainWindow {
 
  private:
   void make_centre();
-  void make_status_bar();
-  void note_renderer();
   void connect_files();
   void connect_evolution();
   void connect_views();
@@ -109,10 +105,8 @@ class MainWindow : public QMainWindow {
   CaseLinks* links_ = nullptr;
   RecentStudies* recent_ = nullptr;
   StudyOpener* opener_ = nullptr;
-  LoadingView* loading_ = nullptr;
   MessageBar* messages_ = nullptr;
-  ValueBar* values_ = nullptr;
-  QToolButton* value_details_ = nullptr;
+  StatusBar* status_bar_ = nullptr;
   CaseFiles* files_ = nullptr;
   CaseExports* exports_ = nullptr;
   FilmWriter* films_ = nullptr;

@@ -10,6 +10,12 @@ void show(QWidget& widget) {
   if (!QTest::qWaitForWindowActive(&widget)) qFatal("the window does not show");
 }
 
+void drag(QWidget& widget, QPoint from, QPoint to, int moves) {
+  QTest::mousePress(&widget, Qt::LeftButton, {}, from);
+  for (int move = 1; move <= moves; ++move) QTest::mouseMove(&widget, from + (to - from) * move / moves);
+  QTest::mouseRelease(&widget, Qt::LeftButton, {}, to);
+}
+
 PanelCase::PanelCase()
     : proxy(std::make_unique<engine::CaseProxy>(engine, ball_study(), solver::ExecutorKind::host)) {
   proxy->display().change([this](engine::DisplaySettings& settings) { settings.cursor_mm = middle(); });

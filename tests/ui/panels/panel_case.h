@@ -30,6 +30,9 @@ Button* button(QWidget& in, const QString& text) {
   qFatal("there is no button %s", qPrintable(text));
 }
 
+// Drags with the left button, in so many moves.
+void drag(QWidget& widget, QPoint from, QPoint to, int moves = 5);
+
 class PanelCase {
  public:
   PanelCase();

@@ -1,0 +1,36 @@
+#include "engine/pace.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace tidemark::engine {
+namespace {
+
+constexpr double kChunkSeconds = 0.016;  // of steps between two pictures
+constexpr std::int64_t kMostSteps = 50;  // between two pictures: it should be seen how the surface moves
+
+}  // namespace
+
+void Pace::set(double steps_per_second) {
+  steps_per_second_ = steps_per_second;
+  due_ = Engine::Clock::now();
+}
+
+std::int64_t Pace::steps_to_next_picture(double seconds_per_step) const {
+  if (steps_per_picture_ > 0) return steps_per_picture_;
+  if (steps_per_second_ > 0.0) return std::max(std::llround(kChunkSeconds * steps_per_second_), 1LL);
+  if (seconds_per_step <= 0.0) return 1;
+  return std::clamp(std::llround(kChunkSeconds / seconds_per_step), 1LL, static_cast<long long>(kMostSteps));
+}
+
+Engine::Clock::time_point Pace::next_due(std::int64_t steps) {
+  if (steps_per_second_ <= 0.0) return {};
+  const auto now = Engine::Clock::now();
+  if (steps == 0) return now + std::chrono::milliseconds(1);
+  const std::chrono::duration<double> time(static_cast<double>(steps) / steps_per_second_);
+  due_ = std::max(due_ + std::chrono::duration_cast<Engine::Clock::duration>(time), now);
+  return due_;
+}
+
+}  // namespace tidemark::engine

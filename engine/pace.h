@@ -1,0 +1,30 @@
+// The pace of a case that plays: how many steps come between two pictures, and when.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/engine.h"
+
+namespace tidemark::engine {
+
+class Pace {
+ public:
+  // At most so many steps a second from now on; 0: as many as can be computed.
+  void set(double steps_per_second);
+  [[nodiscard]] double steps_per_second() const { return steps_per_second_; }
+  // 0: as many as the pace, or else the time of a picture, allows.
+  void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
+
+  // A step takes `seconds_per_step`; 0: nobody knows.
+  [[nodiscard]] std::int64_t steps_to_next_picture(double seconds_per_step) const;
+  // When the steps after so many may begin: what was late is not made up for. One that waits for others in
+  // lock-step, after none, looks again soon.
+  [[nodiscard]] Engine::Clock::time_point next_due(std::int64_t steps);
+
+ private:
+  double steps_per_second_ = 0.0;
+  std::int64_t steps_per_picture_ = 0;
+  Engine::Clock::time_point due_;  // of the steps up to here
+};
+
+}  // namespace tidemark::engine
