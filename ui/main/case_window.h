@@ -40,6 +40,7 @@ class CaseWindow : public QMainWindow {
 
   // Another view, as a tab behind the active one.
   PictureView* add_view(ViewKind kind);
+  // Becomes that of the next cases too.
   void set_layout(ViewLayout layout);
   [[nodiscard]] ViewLayout view_layout() const { return layout_; }
   // The view that was last clicked or has the keyboard, else the first. Null without
@@ -74,6 +75,7 @@ class CaseWindow : public QMainWindow {
   void changeEvent(QEvent* event) override;
 
  private:
+  void arrange(ViewLayout layout);
   PictureView* make_view(ViewKind kind);
   QDockWidget* make_dock(ViewKind kind) { return make_dock(kind, ++docks_made_); }
   QDockWidget* make_dock(ViewKind kind, int number);
