@@ -214,6 +214,7 @@ void complete_single(SliceHeader& slice, Series& series) {
     slice.position_mm = glm::dvec3(0.0);
     slice.orientation = {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0)};
     series.frame_of_reference_uid.clear();
+    series.oriented = false;
     series.warnings.emplace_back("the image does not say where it lies in the patient, nor which way up");
   }
 }

@@ -195,6 +195,7 @@ Series scan_picture(const std::filesystem::path& file) {
   PictureHeader header = (*picture)->header();
   describe(header);
   series.geometry = place(header);
+  series.oriented = false;
   series.scalar = scalar_of(header);
   series.loadable = true;
   series.changes = std::move(header.changes);

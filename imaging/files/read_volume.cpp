@@ -35,6 +35,7 @@ Result<Series> scan_volume_file(const std::filesystem::path& file) {
   }
   series.loadable = true;
   series.geometry = header->geometry;
+  series.oriented = header->layout.oriented;
   series.scalar = header->scalar;
   series.changes = std::move(header->changes);
   series.warnings = std::move(header->warnings);

@@ -274,7 +274,7 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   paint_marks(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
   paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
-  paint_orientation(painter, size(), o.right, o.up);
+  paint_orientation(painter, size(), o.right, o.up, proxy().study().oriented);
   paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
   paint_corners(painter);
   paint_legend(painter);

@@ -52,7 +52,7 @@ struct TiffPage {
   int planes = 1;
   int subfile = 0;
   double dpi = 0.0;
-  std::string bytes;
+  std::string bytes = {};
 };
 std::string tiff(const std::vector<TiffPage>& pages);
 
