@@ -262,7 +262,7 @@ class PictureTest : public QObject {
   }
 
   void a_picture_is_a_mask_too() {
-    put(folder_ / "mask.png", Png{.bits = 1, .before = {}}.with("\x60\x60\x00"));
+    put(folder_ / "mask.png", Png{.bits = 1, .before = {}}.with(std::string("\x60\x60\0", 3)));
     const auto mask = imaging::load_mask(folder_ / "mask.png");
     QCOMPARE(failure(mask), QString());
     QCOMPARE(mask->geometry.size, (Index3{4, 3, 1}));

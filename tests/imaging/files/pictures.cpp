@@ -141,6 +141,12 @@ std::string Jpeg::with(const std::vector<std::uint8_t>& samples) const {
     jpeg.X_density = jpeg.Y_density = static_cast<UINT16>(dpi);
   }
   if (progressive) jpeg_simple_progression(&jpeg);
+  std::vector<jpeg_scan_info> script;
+  for (int scan = 0; scan < scans; ++scan) script.push_back({1, {0, 0, 0, 0}, scan, scan, 0, 0});
+  if (scans > 0) {
+    jpeg.scan_info = script.data();
+    jpeg.num_scans = scans;
+  }
   jpeg_start_compress(&jpeg, TRUE);
   if (!app1.empty()) {
     jpeg_write_marker(&jpeg, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(app1.data()),

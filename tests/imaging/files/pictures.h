@@ -31,6 +31,7 @@ struct Jpeg {
   int channels = 1;
   int dpi = 0;
   bool progressive = false;
+  int scans = 0;  // of one coefficient each after the first, where it is above 0
   std::string app1 = {};
 
   [[nodiscard]] std::string with(const std::vector<std::uint8_t>& samples) const;
