@@ -23,9 +23,8 @@ std::string png_of_size(std::uint32_t columns, std::uint32_t rows) {
          png_chunk("IEND", "");
 }
 
-std::string with_byte(std::string bytes, std::size_t at, char value) {
-  bytes.at(at) = value;
-  return bytes;
+std::string with_byte(const std::string& bytes, std::size_t at, char value) {
+  return bytes.substr(0, at) + value + bytes.substr(at + 1);
 }
 
 // Rows and columns of the frame header, which says 8 x 16.
