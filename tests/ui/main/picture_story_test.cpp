@@ -67,6 +67,7 @@ class PictureStoryTest : public QObject {
     desktop.screenshot("picture-1-opened");
 
     const glm::dvec3 centre = desktop.proxy().volume().geometry.to_patient({kCentre, 0.0});
+    desktop.window().actions().tool(engine::Tool::seed)->trigger();
     QTest::mouseClick(slice, Qt::LeftButton, {}, slice->position_of(centre).toPoint());
     QVERIFY(Desktop::wait_for([&] { return desktop.state().begun; }));
     desktop.wait_until_idle();
