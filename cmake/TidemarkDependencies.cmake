@@ -31,6 +31,8 @@ target_link_libraries(tidemark_itk INTERFACE
 find_package(ZLIB REQUIRED)
 find_package(GIF REQUIRED)
 find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED)
+find_package(TIFF 4.5 REQUIRED)
 
 find_package(TidemarkOpenVDB REQUIRED)
 

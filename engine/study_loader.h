@@ -35,6 +35,7 @@ struct LoadedStudy {
   SourceSummary summary;
   QString name;                        // for titles; never the patient's
   std::string frame_of_reference_uid;  // empty where it is not known
+  bool oriented = true;                // the files say how the axes lie in the patient
   imaging::Patient patient;
   std::string date;               // of the study: "2004-07-31"; empty when unknown
   solver::Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -25,6 +26,21 @@ bool is_volume_file(const Series& series) {
   return series.transfer_syntaxes.empty();
 }
 
+// Beside a study pictures are previews and photographs of it: they count where there is nothing else.
+void leave_out_pictures(Catalogue& catalogue) {
+  const auto is_picture = [](const Series& series) {
+    return is_volume_file(series) && is_picture_file(series.files.front());
+  };
+  const auto pictures =
+      std::stable_partition(catalogue.series.begin(), catalogue.series.end(), std::not_fn(is_picture));
+  if (pictures == catalogue.series.begin()) return;
+  for (auto picture = pictures; picture != catalogue.series.end(); ++picture) {
+    catalogue.skipped.push_back(
+        {picture->files.front(), "is a picture beside a study, which is opened by itself"});
+  }
+  catalogue.series.erase(pictures, catalogue.series.end());
+}
+
 // Files that are no DICOM may be volume files.
 Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progress) {
   auto catalogue = scan_dicom(folder, progress);
@@ -44,6 +60,7 @@ Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progres
     }
   }
   catalogue->skipped = std::move(skipped);
+  leave_out_pictures(*catalogue);
   return catalogue;
 }
 
@@ -77,7 +94,7 @@ Result<Catalogue> find_in_file(const fs::path& file, const Progress& progress) {
   }
   if (is_zip_archive(file)) return find_in_archive(file, progress);
   if (std::ifstream(file) && !looks_like_dicom(file)) {
-    return fail(ErrorKind::input, "{}: is neither a DICOM image, a volume file nor a zip archive",
+    return fail(ErrorKind::input, "{}: is neither a DICOM image, a volume file, a picture nor a zip archive",
                 file.string());
   }
   return scan_dicom(file, progress);
@@ -167,6 +184,11 @@ bool is_asked_for(const Series& series, const std::string& uid) {
   return uid.empty() || series.uid == uid || series.uid.starts_with(uid + '#');
 }
 
+// A scout, a capture of the screen, a picture, or what cannot be loaded at all.
+bool is_single_image(const Series& series) {
+  return series.sources.size() <= 1 && series.geometry.size.z <= 1;
+}
+
 // The check on a series from outside.
 Status require_loadable(const Series& series) {
   if (series.loadable && !series.files.empty()) return {};
@@ -191,16 +213,26 @@ Series by_policy(Series series, const GridPolicy& policy) {
   return series;
 }
 
+std::vector<const Series*> meant_series(const Catalogue& catalogue, const std::string& uid) {
+  std::vector<const Series*> meant;
+  for (const Series& series : catalogue.series) {
+    if (is_asked_for(series, uid)) meant.push_back(&series);
+  }
+  const auto is_single = [](const Series* one) { return is_single_image(*one); };
+  const bool has_several = !std::all_of(meant.begin(), meant.end(), is_single);
+  if (uid.empty() && has_several) std::erase_if(meant, is_single);
+  return meant;
+}
+
 std::string reason_under(const fs::path& path, const Series& series) {
   return path.string() + ": " + without_path(without_path(series.reason, path), path.filename());
 }
 
 const Series* find_fillable(const Catalogue& catalogue, const std::string& uid) {
   const Series* fillable = nullptr;
-  for (const Series& series : catalogue.series) {
-    if (!is_asked_for(series, uid)) continue;
-    if (series.loadable) return nullptr;
-    if (fillable == nullptr && series.fillable()) fillable = &series;
+  for (const Series* series : meant_series(catalogue, uid)) {
+    if (series->loadable) return nullptr;
+    if (fillable == nullptr && series->fillable()) fillable = series;
   }
   return fillable;
 }
@@ -215,7 +247,7 @@ Result<Catalogue> find_series(const fs::path& path, const Progress& progress, co
     auto catalogue =
         fs::is_directory(path, error) ? find_in_folder(path, progress) : find_in_file(path, progress);
     if (catalogue && catalogue->series.empty()) {
-      return fail(ErrorKind::input, "{}: holds no DICOM series or volume file", path.string());
+      return fail(ErrorKind::input, "{}: holds no DICOM series, volume file or picture", path.string());
     }
     if (catalogue && policy != GridPolicy()) {
       for (Series& series : catalogue->series) set_grid(series, policy);
@@ -225,10 +257,7 @@ Result<Catalogue> find_series(const fs::path& path, const Progress& progress, co
 }
 
 Result<ChosenSeries> choose_series(const Catalogue& catalogue, const std::string& uid, const fs::path& path) {
-  std::vector<const Series*> matching;
-  for (const Series& series : catalogue.series) {
-    if (is_asked_for(series, uid)) matching.push_back(&series);
-  }
+  const std::vector<const Series*> matching = meant_series(catalogue, uid);
   if (matching.empty()) {
     return fail(ErrorKind::input, "{}: has no series {}; it has {}", path.string(), uid,
                 list_uids(catalogue.series));

@@ -1,5 +1,5 @@
-// The one way into the program: a DICOM folder, a DICOM file, a DICOMDIR, a volume file or a zip archive of
-// these, by its path.
+// The one way into the program: a DICOM folder, a DICOM file, a DICOMDIR, a volume file, a picture or a zip
+// archive of these, by its path.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,8 @@ namespace tidemark::imaging {
 
 // Lists the series under `path` (a folder is searched recursively). Fails (ErrorKind::input) when the path
 // does not exist or holds nothing that looks like an image; a series that cannot be loaded is listed with
-// its reason. The policy is for slices that make no regular grid.
+// its reason. Pictures in a folder count where it holds nothing else: beside a study they are previews of it.
+// The policy is for slices that make no regular grid.
 Result<Catalogue> find_series(const std::filesystem::path& path, const Progress& progress = {},
                               const GridPolicy& policy = {});
 
@@ -24,10 +25,14 @@ Result<Catalogue> find_series(const std::filesystem::path& path, const Progress&
 // is none, or one can be loaded without that.
 [[nodiscard]] const Series* find_fillable(const Catalogue& catalogue, const std::string& uid);
 
-// The series `uid` out of find_series(path); an empty uid takes the only loadable series, or the one
-// with the most voxels. The UID of a series that holds several volumes, without the number of one of them,
-// takes the largest. Fails (ErrorKind::input) with the reason why none can be loaded, or with the UIDs to
-// choose from.
+// The series of that UID, whether they can be loaded or not. An empty one means all; but where there is any
+// of several images, one of a single image (a scout) is only meant by its UID.
+[[nodiscard]] std::vector<const Series*> meant_series(const Catalogue& catalogue, const std::string& uid);
+
+// The series `uid` out of find_series(path); an empty uid takes the only loadable one of meant_series(), or
+// the one with the most voxels. The UID of a series that holds several volumes, without the number of one of
+// them, takes the largest. Fails (ErrorKind::input) with the reason why none can be loaded, or with the UIDs
+// to choose from.
 struct ChosenSeries {
   Series series;
   std::vector<std::string> remarks;  // about the choice, for the user

@@ -7,7 +7,7 @@ tidemark_packages=(
   qt6-base-dev qt6-svg-dev fonts-dejavu-core libgl-dev libepoxy-dev libegl-dev libegl1 libgl1 libgl1-mesa-dri
   libglm-dev libfmt-dev libspdlog-dev libexpected-dev nlohmann-json3-dev libcli11-dev libhwy-dev
   libzip-dev libssl-dev libdcmtk-dev libnsl-dev libopenjp2-7-dev
-  libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libpng-dev libgif-dev
+  libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libpng-dev libjpeg-dev libtiff-dev libgif-dev
   libopenvdb-dev libtbb-dev libboost-dev
 )
 

@@ -6,9 +6,21 @@
 #include <glm/gtx/component_wise.hpp>
 
 namespace tidemark::solver {
+namespace {
+
+// Of neighbouring voxels, in mm: a single slice has none above it, however thick it is.
+double largest_spacing(const Geometry& geometry) {
+  double largest = glm::compMin(geometry.spacing_mm);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (geometry.size[axis] > 1) largest = std::max(largest, geometry.spacing_mm[axis]);
+  }
+  return largest;
+}
+
+}  // namespace
 
 double default_band(const Geometry& geometry) {
-  return std::max(2.5, 2.0 * glm::compMax(geometry.spacing_mm) / glm::compMin(geometry.spacing_mm));
+  return std::max(2.5, 2.0 * largest_spacing(geometry) / glm::compMin(geometry.spacing_mm));
 }
 
 Model::Model(const Geometry& geometry, const Parameters& parameters, const SpeedFunction& speed)
@@ -17,6 +29,7 @@ Model::Model(const Geometry& geometry, const Parameters& parameters, const Speed
       // Rounded to the executors' type, so that all of them clamp to the same value.
       band_(static_cast<float>(parameters.band.value_or(default_band(geometry)))) {
   spacing_ = geometry.spacing_mm / smallest_spacing_mm_;
+  near_ = largest_spacing(geometry) / smallest_spacing_mm_;
   rescale_ = parameters.rescale.value_or(0.75 / band_);
   time_step_ = stable_time_step(parameters.data_term ? speed.largest() : 0.0,
                                 speed.advects() ? speed.fastest_advection() : 0.0);
@@ -48,7 +61,7 @@ StepConstants<Real> Model::constants() const {
   c.curvature_weight = static_cast<Real>(parameters_.curvature_term ? 1.0 - parameters_.alpha : 0.0);
   c.rescaling_weight = static_cast<Real>(parameters_.rescaling_term ? rescale_ : 0.0);
   c.target_gradient = static_cast<Real>(parameters_.target_gradient);
-  c.near = static_cast<Real>(glm::compMax(spacing_));
+  c.near = static_cast<Real>(near_);
   return c;
 }
 

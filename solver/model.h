@@ -19,7 +19,7 @@ struct StepConstants {
   Real curvature_weight;    // 1 - alpha; 0 when the term is off
   Real rescaling_weight;    // w; 0 when the term is off
   Real target_gradient;     // g_phi
-  Real near;                // |phi| of a voxel beside the surface is at most this: the largest spacing
+  Real near;                // |phi| of a voxel beside the surface is at most this: h_max
 };
 
 // A level set's equation on its grid. The largest speed bounds the time step.
@@ -42,12 +42,14 @@ class Model {
   Parameters parameters_;
   glm::dvec3 spacing_{1.0};
   double smallest_spacing_mm_ = 1.0;
+  double near_ = 1.0;
   double band_ = 2.5;
   double rescale_ = 0.3;
   double time_step_ = 0.0;
 };
 
-// max(2.5, 2 h_max / h_min): thick slices would stop the surface in a narrower band.
+// max(2.5, 2 h_max / h_min): thick slices would stop the surface in a narrower band. An axis of one voxel is
+// no h_max, as no surface moves along it.
 double default_band(const Geometry& geometry);
 
 }  // namespace tidemark::solver

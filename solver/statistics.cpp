@@ -216,7 +216,8 @@ SurfaceStatistics measure(const Field& phi) {
       } else if (value > 0.0) {
         voxels += 1.0;
       }
-      if (geometry.contains(voxel + Index3(1))) {
+      // A single slice goes on as it is for its thickness: its surface is its outline times that.
+      if (geometry.contains(voxel + Index3(1, 1, geometry.size.z == 1 ? 0 : 1))) {
         result.surface_mm2 += area_in_cell(values.cell(local), geometry.spacing_mm);
       }
     });

@@ -20,8 +20,8 @@ constexpr const char* kDescription =
 constexpr const char* kFooter = R"(
 Units: I,J,K are voxel indices, 0-based, along columns, rows and slices; radii are in mm; X,Y,Z are patient
 coordinates in mm (LPS: x to the patient's left, y to posterior, z to the head).
-INPUT is a DICOM folder, file or DICOMDIR, a .nii .nii.gz .nrrd .nhdr .mha .mhd .gipl .gipl.gz file, or a zip
-archive of these.
+INPUT is a DICOM folder, file or DICOMDIR, a .nii .nii.gz .nrrd .nhdr .mha .mhd .gipl .gipl.gz file, a picture
+(.png .jpg .jpeg .tif .tiff), or a zip archive of these.
 
 Examples:
   tidemark-cli phantom head --out head

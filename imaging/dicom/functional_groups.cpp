@@ -40,7 +40,10 @@ class GroupReader {
   void read_place() {
     with(DCM_PlanePositionSequence, [&](AttributeReader& in) { read_position(in, header_); });
     with(DCM_PlaneOrientationSequence, [&](AttributeReader& in) { read_orientation(in, header_); });
-    with(DCM_PixelMeasuresSequence, [&](AttributeReader& in) { read_pixel_spacing(in, header_); });
+    with(DCM_PixelMeasuresSequence, [&](AttributeReader& in) {
+      read_pixel_spacing(in, header_);
+      read_thickness(in, header_);
+    });
   }
 
   void read_values() {

@@ -167,6 +167,8 @@ ImageResult<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file,
   read_position(in, header);
   read_orientation(in, header);
   read_pixel_spacing(in, header);
+  read_detector_spacing(in, header);
+  read_thickness(in, header);
   read_rescale(in, header);
   read_window(in, header);
   read_padding(in, header);

@@ -4,6 +4,8 @@
 #include <dcmtk/dcmdata/dctk.h>
 #include <fmt/format.h>
 
+#include "imaging/dicom/decimal.h"
+
 namespace tidemark::imaging {
 
 void read_position(AttributeReader& in, SliceHeader& header) {
@@ -22,6 +24,17 @@ void read_pixel_spacing(AttributeReader& in, SliceHeader& header) {
   if (const auto s = in.decimals(DCM_PixelSpacing, 2)) {
     header.pixel_spacing_mm = glm::dvec2((*s)[1], (*s)[0]);
   }
+}
+
+void read_detector_spacing(const AttributeReader& in, SliceHeader& header) {
+  const auto s = parse_decimals(in.text(DCM_ImagerPixelSpacing));
+  if (s && s->size() == 2 && (*s)[0] > 0.0 && (*s)[1] > 0.0)
+    header.detector_spacing_mm = glm::dvec2((*s)[1], (*s)[0]);
+}
+
+void read_thickness(const AttributeReader& in, SliceHeader& header) {
+  const auto thickness = in.number(DCM_SliceThickness);
+  if (thickness && *thickness > 0.0) header.thickness_mm = thickness;
 }
 
 void read_rescale(AttributeReader& in, SliceHeader& header) {

@@ -12,6 +12,10 @@ void read_position(AttributeReader& in, SliceHeader& header);
 void read_orientation(AttributeReader& in, SliceHeader& header);
 void read_pixel_spacing(AttributeReader& in, SliceHeader& header);
 
+// What only an image by itself is measured by. Values that make no sense count as none.
+void read_detector_spacing(const AttributeReader& in, SliceHeader& header);
+void read_thickness(const AttributeReader& in, SliceHeader& header);
+
 // Modality LUT (PS3.3 C.11.1): slope, intercept and the unit that they lead to.
 void read_rescale(AttributeReader& in, SliceHeader& header);
 

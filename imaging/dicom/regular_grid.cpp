@@ -251,9 +251,17 @@ GridPlan GridPlanner::plan() {
   return plan_;
 }
 
+GridPlan plan_of_one(const ImageStack& stack) {
+  GridPlan plan;
+  plan.geometry = {
+      stack.size, {stack.spacing_mm, stack.thickness_mm}, stack.axes, stack.positions_mm.front()};
+  return plan;
+}
+
 }  // namespace
 
 GridPlan plan_regular_grid(const ImageStack& stack, const GridPolicy& policy) {
+  if (stack.size.z == 1) return plan_of_one(stack);
   return GridPlanner(stack, policy).plan();
 }
 

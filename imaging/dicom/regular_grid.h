@@ -12,10 +12,12 @@
 
 namespace tidemark::imaging {
 
-// Parallel slices of one size, in the order of their places along the normal, no two at one place.
+// Parallel slices of one size, or one alone, in the order of their places along the normal, no two at one
+// place.
 struct ImageStack {
   Index3 size{0};                        // columns, rows, slices
   glm::dvec2 spacing_mm{1.0};            // of pixels along i and j
+  double thickness_mm = 1.0;             // of a slice that is alone, which has no distance to another
   glm::dmat3 axes{1.0};                  // i, j and their normal, orthonormal
   std::vector<glm::dvec3> positions_mm;  // of each slice's first pixel
   std::vector<std::string> names;        // of the slices, for messages
@@ -45,7 +47,8 @@ struct GridPlan {
 // Slices may move sideways in proportion to their distance, by at most 45 degrees (gantry tilt). Where they
 // are missing (distances are whole multiples) the grid has the slices that are there, and linear
 // interpolation between them; where distances are uneven otherwise, all is interpolated to the smallest usual
-// one, from the first slice on. No grid has more than four times the voxels of its slices.
+// one, from the first slice on. No grid has more than four times the voxels of its slices. A slice alone is a
+// grid as it is.
 [[nodiscard]] GridPlan plan_regular_grid(const ImageStack& stack, const GridPolicy& policy);
 
 }  // namespace tidemark::imaging

@@ -179,6 +179,7 @@ ImageStack stack_of(const Slices& slices, const glm::dmat3& axes) {
   ImageStack stack;
   stack.size = {first.columns, first.rows, static_cast<std::int64_t>(slices.size())};
   stack.spacing_mm = *first.pixel_spacing_mm;
+  stack.thickness_mm = first.thickness_mm.value_or(1.0);
   stack.axes = axes;
   for (const SliceHeader& slice : slices) {
     stack.positions_mm.push_back(*slice.position_mm);
@@ -187,12 +188,39 @@ ImageStack stack_of(const Slices& slices, const glm::dmat3& axes) {
   return stack;
 }
 
+// An image that is its whole series needs no place among others: what it does not say is supposed, and told.
+void complete_single(SliceHeader& slice, Series& series) {
+  const auto is_sensible = [](double mm) { return mm >= kSmallestSpacing && mm <= kLargestSpacing; };
+  if (!slice.thickness_mm || !is_sensible(*slice.thickness_mm)) {
+    slice.thickness_mm = 1.0;
+    series.changes.emplace_back("a single image is a volume of one slice, which counts as 1 mm thick");
+  } else {
+    series.changes.push_back(
+        fmt::format("a single image is a volume of one slice, {:g} mm thick as SliceThickness "
+                    "(0018,0050) says",
+                    *slice.thickness_mm));
+  }
+  if (!slice.pixel_spacing_mm && slice.detector_spacing_mm) {
+    slice.pixel_spacing_mm = slice.detector_spacing_mm;
+    series.warnings.emplace_back(
+        "lengths are those on the detector (ImagerPixelSpacing, 0018,1164), where a projection is larger "
+        "than the "
+        "object");
+  } else if (!slice.pixel_spacing_mm) {
+    slice.pixel_spacing_mm = glm::dvec2(1.0);
+    series.warnings.emplace_back("PixelSpacing (0028,0030) is missing: a pixel counts as 1 mm");
+  }
+  if (!slice.position_mm || !slice.orientation) {
+    slice.position_mm = glm::dvec3(0.0);
+    slice.orientation = {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0)};
+    series.frame_of_reference_uid.clear();
+    series.oriented = false;
+    series.warnings.emplace_back("the image does not say where it lies in the patient, nor which way up");
+  }
+}
+
 // Checks that need no order.
 Reason check_unsorted(const Slices& slices) {
-  if (auto r = check_problems(slices)) return r;
-  if (slices.size() < 2) {
-    return fmt::format("{} is a single image: a volume needs at least two slices", name(slices[0]));
-  }
   if (auto r = check_has_geometry(slices)) return r;
   if (auto r = check_numbers(slices)) return r;
   return check_all_alike(slices);
@@ -290,8 +318,11 @@ Series arrange_series(std::vector<SliceHeader> slices) {
       if (known.insert(slice.file).second) series.files.push_back(slice.file);
     }
   };
-  if (auto reason = check_unsorted(slices)) {
-    series.reason = *reason;
+  auto problem = check_problems(slices);
+  if (!problem && slices.size() == 1) complete_single(slices.front(), series);
+  if (!problem) problem = check_unsorted(slices);
+  if (problem) {
+    series.reason = *problem;
     finish();
     return series;
   }

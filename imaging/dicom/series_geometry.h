@@ -9,7 +9,8 @@
 
 namespace tidemark::imaging {
 
-// Sorts the images of one series along their normal and checks that they make a stack: same size, pixel
+// An image alone is a volume of one slice, and what it does not say about its place is supposed. Else sorts
+// the images of one series along their normal and checks that they make a stack: same size, pixel
 // spacing and orientation, one image a position (DICOM PS3.3 C.7.6.2.1.1); of which a regular grid is made by
 // the default policy (plan_regular_grid()). The direction of the k axis is cross(i, j), so that the grid is
 // right-handed. `slices` must not be empty. A series that fails a check comes back with loadable = false and

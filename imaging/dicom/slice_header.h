@@ -64,6 +64,8 @@ struct SliceHeader {
   std::optional<glm::dvec3> position_mm;                 // (0020,0032), LPS
   std::optional<std::array<glm::dvec3, 2>> orientation;  // (0020,0037): along a row (i), along a column (j)
   std::optional<glm::dvec2> pixel_spacing_mm;            // along i, along j: (0028,0030) swapped
+  std::optional<glm::dvec2> detector_spacing_mm;  // the same of (0018,1164): of a projection's detector
+  std::optional<double> thickness_mm;             // (0018,0050)
 
   double slope = 1.0;                 // (0028,1053)
   double intercept = 0.0;             // (0028,1052)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <new>
 
+#include "imaging/files/picture.h"
 #include "imaging/files/stored_voxels.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/files/volume_header.h"
@@ -9,7 +10,11 @@
 namespace tidemark::imaging {
 
 bool is_readable_volume_file(const std::filesystem::path& file) {
-  return files::format_of(file).has_value();
+  return files::format_of(file).has_value() || is_picture_file(file);
+}
+
+bool is_picture_file(const std::filesystem::path& file) {
+  return files::picture_format_of(file).has_value();
 }
 
 Result<Series> scan_volume_file(const std::filesystem::path& file) {
@@ -17,6 +22,7 @@ Result<Series> scan_volume_file(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, ignored)) {
     return fail(ErrorKind::input, "{}: no such file", file.string());
   }
+  if (is_picture_file(file)) return files::scan_picture(file);
   const files::ItkScope scope;
   Series series;
   series.uid = file.filename().string();
@@ -29,6 +35,7 @@ Result<Series> scan_volume_file(const std::filesystem::path& file) {
   }
   series.loadable = true;
   series.geometry = header->geometry;
+  series.oriented = header->layout.oriented;
   series.scalar = header->scalar;
   series.changes = std::move(header->changes);
   series.warnings = std::move(header->warnings);
@@ -36,6 +43,7 @@ Result<Series> scan_volume_file(const std::filesystem::path& file) {
 }
 
 Result<Volume> read_volume_file(const std::filesystem::path& file, const Progress& progress) {
+  if (is_picture_file(file)) return files::read_picture(file, progress);
   const std::string name = file.string();
   const files::ItkScope scope;
   progress(0.0, "reading the volume");

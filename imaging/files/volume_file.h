@@ -1,4 +1,5 @@
-// Volume files other than DICOM, through ITK: NIfTI, NRRD, MetaImage (read and write), GIPL (read).
+// Volume files other than DICOM: NIfTI, NRRD, MetaImage (read and write) and GIPL (read) through ITK, and
+// pictures (read): PNG, JPEG, TIFF.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +10,18 @@
 
 namespace tidemark::imaging {
 
-// By suffix, case ignored: .nii .nii.gz .nrrd .nhdr .mha .mhd .gipl .gipl.gz (reading);
-// .nii .nii.gz .nrrd .mha (writing).
+// By suffix, case ignored: .nii .nii.gz .nrrd .nhdr .mha .mhd .gipl .gipl.gz .png .jpg .jpeg .tif .tiff
+// (reading); .nii .nii.gz .nrrd .mha (writing).
 bool is_readable_volume_file(const std::filesystem::path& file);
+bool is_picture_file(const std::filesystem::path& file);  // of the former, those from .png on
 bool is_writable_volume_file(const std::filesystem::path& file);
 
 // The header alone, as a series of one file (loadable = false with a reason when the content is refused).
 Result<Series> scan_volume_file(const std::filesystem::path& file);
 
 // 3D scalar images. int16 and uint16 stay as they are, 8-bit types become int16 or uint16, others float.
-// Geometry is converted to LPS (NIfTI stores RAS).
+// Geometry is converted to LPS (NIfTI stores RAS). A picture is a volume of one slice, or of its pages: i
+// along its rows, j down; colours become their luminance, and the pixels' size is that of its resolution.
 Result<Volume> read_volume_file(const std::filesystem::path& file, const Progress& progress = {});
 
 // Written through a temporary file; on failure (ErrorKind::write) the target is as it was before. Values are

@@ -47,6 +47,15 @@ Status require_contrast(const Volume& image, const char* which) {
               describe(image.geometry));
 }
 
+// A single slice fits as well wherever the other image looks the same.
+Status require_depth(const Volume& image, const char* which) {
+  const Index3 size = image.geometry.size;
+  if (std::min({size.x, size.y, size.z}) > 1) return {};
+  return fail(ErrorKind::usage,
+              "registration: the {} image of {} is a single slice, whose place across it cannot be found",
+              which, describe(image.geometry));
+}
+
 // The part of a progress that runs from `begin` to `end`.
 Progress between(const Progress& progress, double begin, double end) {
   Progress part{nullptr, progress.stop};
@@ -107,6 +116,8 @@ Registration describe_rigid(const glm::dmat4& transform, glm::dvec3 centre_mm) {
 
 Result<Registration> register_rigidly(const Volume& moving, const Volume& fixed, const glm::dmat4& start,
                                       const Progress& progress) {
+  TIDEMARK_TRY(require_depth(moving, "moving"));
+  TIDEMARK_TRY(require_depth(fixed, "fixed"));
   TIDEMARK_TRY(require_contrast(moving, "moving"));
   TIDEMARK_TRY(require_contrast(fixed, "fixed"));
   try {

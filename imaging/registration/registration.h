@@ -25,7 +25,8 @@ struct Registration {
 // the fixed image's centre and shifts, from coarse to fine in mm. The search begins at `start`, likewise from
 // moving to fixed; where neither image's centre then lies in the other image, at their centres on one
 // another. The same images give the same bits, whatever the number of threads. Fails (ErrorKind::usage),
-// naming both grids, when the images share too little space, or one of them has a single value.
+// naming the grids, when the images share too little space, or one of them has a single value or a single
+// slice.
 Result<Registration> register_rigidly(const Volume& moving, const Volume& fixed,
                                       const glm::dmat4& start = glm::dmat4(1.0),
                                       const Progress& progress = {});

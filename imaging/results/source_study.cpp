@@ -66,10 +66,13 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
     if (first.sop_class_uid.empty() || first.sop_instance_uid.empty()) continue;
     const std::size_t image = study.images.size();
     study.images.push_back({first.sop_class_uid, first.sop_instance_uid});
+    // An image that is all there is needs no place among others.
+    const bool is_alone = files.size() == 1 && slices->size() == 1 && geometry.size.z == 1;
     for (const SliceHeader& slice : *slices) {
-      const auto k = slice.position_mm ? slice_at(*slice.position_mm, geometry) : std::nullopt;
+      auto k = slice.position_mm ? slice_at(*slice.position_mm, geometry) : std::nullopt;
+      if (is_alone && !slice.position_mm) k = 0;
       if (!k) continue;
-      if (is_beside(slice, *k, geometry)) {
+      if (slice.position_mm && is_beside(slice, *k, geometry)) {
         beside[static_cast<std::size_t>(*k)] = file;
         continue;
       }

@@ -133,7 +133,7 @@ class StudyLoaderTest : public QObject {
     const test::TemporaryFolder empty;
     engine::StudyLoader loader;
     loader.scan(empty.path());
-    QVERIFY(wait_for(loader).message.contains("holds no DICOM series or volume file"));
+    QVERIFY(wait_for(loader).message.contains("holds no DICOM series, volume file or picture"));
     loader.load(empty / "nowhere", {});
     QVERIFY(wait_for(loader).message.contains("no such file or folder"));
     loader.make_phantom("unicorn");

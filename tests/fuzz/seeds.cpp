@@ -23,6 +23,7 @@
 #include "tests/imaging/dicom/ht_streams.h"
 #include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"
+#include "tests/imaging/files/pictures.h"
 #include "tests/imaging/files/volumes.h"
 
 using namespace tidemark;
@@ -231,6 +232,37 @@ void write_volumes() {
   write("volume_files", "gipl-gzip", gzip(gipl + voxels));
 }
 
+void write_pictures() {
+  const std::string rows = "abcdefghijkl";
+  const std::string density = test::png_chunk("pHYs", test::big(5000) + test::big(5000) + "\1");
+  write("volume_files", "png", test::Png{.before = density}.with(rows));
+  write("volume_files", "png-deep", test::Png{.bits = 16}.with(rows + rows));
+  write("volume_files", "png-colours",
+        test::Png{.columns = 2, .rows = 1, .colour_type = 6}.with(rows.substr(0, 8)));
+  write("volume_files", "png-interlaced", test::Png{.interlaced = true}.with(rows));
+  const std::string palette = test::png_chunk("PLTE", "rgbRGBabc") + test::png_chunk("tRNS", "a");
+  write("volume_files", "png-palette",
+        test::Png{.bits = 2, .colour_type = 3, .before = palette}.with("\x18\x24\x18"));
+  const std::vector<std::uint8_t> grey(128, 90);
+  write("volume_files", "jpeg",
+        test::Jpeg{.dpi = 254, .app1 = test::exif_orientation_marker(6, true)}.with(grey));
+  write("volume_files", "jpeg-progressive", test::Jpeg{.progressive = true}.with(grey));
+  write("volume_files", "jpeg-colours",
+        test::Jpeg{.columns = 8, .channels = 3}.with(std::vector<std::uint8_t>(192, 90)));
+  test::TiffPage page{.bytes = rows};
+  page.dpi = 508.0;
+  page.orientation = 8;
+  write("volume_files", "tiff", test::tiff({page}));
+  page.compression = 5;
+  write("volume_files", "tiff-pages", test::tiff({page, page}));
+  test::TiffPage tiled{.columns = 4, .rows = 3, .samples = 3, .meaning = 2, .compression = 8, .tile = 16};
+  tiled.bytes = rows + rows + rows;
+  write("volume_files", "tiff-tiles", test::tiff({tiled}));
+  write("volume_files", "tiff-palette",
+        test::tiff({test::TiffPage{.meaning = 3, .compression = 32773, .bytes = rows}}));
+  write("volume_files", "tiff-bits", test::tiff({test::TiffPage{.bits = 1, .bytes = "abc"}}));
+}
+
 // Two boxes that overlap, one of them with a hole.
 imaging::Segments boxes() {
   imaging::Segments segments{{{7, 5, 4}}, {}, {}};
@@ -353,6 +385,7 @@ int main(int argc, char** argv) {
   write_media_directories();
   write_archives();
   write_volumes();
+  write_pictures();
   write_results();
   write_studies();
   return 0;

@@ -52,7 +52,7 @@ class LoadStudyTest : public QObject {
 
   void a_folder_without_images_is_said_so() {
     const test::TemporaryFolder folder;
-    const std::string expected = folder.path().string() + ": holds no DICOM series or volume file";
+    const std::string expected = folder.path().string() + ": holds no DICOM series, volume file or picture";
     QCOMPARE(imaging::find_series(folder.path()).error().message, expected);
     std::ofstream(folder / "notes.txt") << "Not an image.\n";
     const auto found = imaging::find_series(folder.path());
@@ -62,7 +62,8 @@ class LoadStudyTest : public QObject {
     const auto alone = imaging::load_volume(folder / "notes.txt");
     QVERIFY(!alone);
     QCOMPARE(alone.error().message,
-             (folder / "notes.txt").string() + ": is neither a DICOM image, a volume file nor a zip archive");
+             (folder / "notes.txt").string() +
+                 ": is neither a DICOM image, a volume file, a picture nor a zip archive");
   }
 
   void a_folder_may_hold_dicom_and_volume_files() {
@@ -108,6 +109,35 @@ class LoadStudyTest : public QObject {
     QCOMPARE(test::failure(file), QString());
     QVERIFY(same_grid(file->geometry, written.geometry, 1e-3));
     QCOMPARE(file->value(Index3{4, 3, 2}), written.value(Index3{4, 3, 2}));
+  }
+
+  // Not even where the series cannot be loaded: the scout is not what was asked for.
+  void a_scout_beside_a_series_is_listed_and_only_read_by_its_uid() {
+    const test::TemporaryFolder folder;
+    const auto scout = test::write_series(test::sample_volume({40, 40, 2}), folder / "scout");
+    fs::remove(scout[1]);
+    const auto alone = imaging::load_volume(folder.path());
+    QCOMPARE(test::failure(alone), QString());
+    QCOMPARE(alone->geometry.size, (Index3{40, 40, 1}));
+
+    const auto files = test::write_series(test::sample_volume({9, 8, 4}), folder / "series");
+    const auto found = imaging::find_series(folder.path());
+    QCOMPARE(test::failure(found), QString());
+    QCOMPARE(found->series.size(), std::size_t{2});
+    for (const imaging::Series& series : found->series) QVERIFY2(series.loadable, series.reason.c_str());
+    const auto series = imaging::load_volume(folder.path());
+    QCOMPARE(test::failure(series), QString());
+    QCOMPARE(series->geometry.size, (Index3{9, 8, 4}));
+    const auto is_scout = [](const imaging::Series& one) { return one.sources.size() == 1; };
+    const auto listed = std::find_if(found->series.begin(), found->series.end(), is_scout);
+    QCOMPARE(imaging::load_volume(folder.path(), listed->uid)->geometry.size, (Index3{40, 40, 1}));
+
+    fs::remove(files[1]);
+    const auto gap = imaging::load_volume(folder.path());
+    QVERIFY(!gap);
+    QVERIFY2(gap.error().message.find("missing between") != std::string::npos, gap.error().message.c_str());
+    const auto catalogue = imaging::find_series(folder.path());
+    QVERIFY(imaging::find_fillable(*catalogue, {}) != nullptr);
   }
 
   void a_series_that_cannot_be_loaded_gives_its_reason() {

@@ -12,6 +12,7 @@
 #include "ui/results/send_result_dialog.h"
 #include "ui/results/write_result_dialog.h"
 #include "ui/settings.h"
+#include "ui/widgets/file_patterns.h"
 
 namespace tidemark::ui {
 namespace {
@@ -79,8 +80,7 @@ void CaseResults::connect_jobs() {
 void CaseResults::ask_and_import(CaseWindow& window) {
   auto* dialog = new QFileDialog(
       &window_, tr("Import labels"), settings::save_folder().get(),
-      tr("Segmentations and label maps (*.dcm *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;"
-         "All files (*)"));
+      tr("Segmentations and label maps (*.dcm %1);;All files (*)").arg(QLatin1String(kVolumePatterns)));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(QFileDialog::ExistingFile);
   connect(dialog, &QFileDialog::fileSelected, this, [this, into = QPointer(&window)](const QString& file) {

@@ -8,6 +8,7 @@
 #include <QJsonObject>
 #include <QSet>
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "engine/display_json.h"
 #include "renderer/camera.h"
@@ -53,6 +54,15 @@ engine::DisplaySettings first_settings(const engine::CaseProxy& proxy) {
   const glm::dvec3 extent = glm::dvec3(volume.geometry.size) * volume.geometry.spacing_mm;
   settings.brush_mm = 0.03 * std::max({extent.x, extent.y, extent.z});
   return settings;
+}
+
+// The slice as it lies: in the other planes a single one is a line.
+ViewKind kind_of_slice(const Geometry& geometry) {
+  constexpr double kParallel = 1.0 - 1e-6;  // within a twelfth of a degree
+  const glm::dvec3 normal = glm::abs(geometry.direction[2]);
+  if (normal.z > kParallel) return ViewKind::axial;
+  if (normal.y > kParallel) return ViewKind::coronal;
+  return normal.x > kParallel ? ViewKind::sagittal : ViewKind::oblique;
 }
 
 // "Patient – series", without what is not known or not to be read.
@@ -104,7 +114,7 @@ CaseWindow::CaseWindow(std::unique_ptr<engine::CaseProxy> proxy, Actions& action
   follow_state();
   autosave_ = std::make_unique<engine::CaseAutosave>(*proxy_, engine::recovery_folder(),
                                                      [this] { return view_state(); });
-  set_layout(settings::layout().get());
+  arrange(proxy_->volume().geometry.size.z == 1 ? ViewLayout::single : settings::layout().get());
 }
 
 CaseWindow::~CaseWindow() {
@@ -212,9 +222,13 @@ PictureView* CaseWindow::show_view(ViewKind kind) {
 }
 
 void CaseWindow::set_layout(ViewLayout layout) {
+  settings::layout().set(layout);
+  arrange(layout);
+}
+
+void CaseWindow::arrange(ViewLayout layout) {
   layout_ = layout;
   before_maximised_.clear();
-  settings::layout().set(layout);
   for (QDockWidget* dock : docks_) {
     dock->setFloating(false);
     removeDockWidget(dock);
@@ -229,9 +243,11 @@ void CaseWindow::set_layout(ViewLayout layout) {
     splitDockWidget(shown[from], shown.back(), orientation);
   };
   switch (layout) {
-    case ViewLayout::single:
-      first(ViewKind::axial);
+    case ViewLayout::single: {
+      const Geometry& geometry = proxy_->volume().geometry;
+      first(geometry.size.z == 1 ? kind_of_slice(geometry) : ViewKind::axial);
       break;
+    }
     case ViewLayout::one_three:
       first(ViewKind::volume);
       split(0, ViewKind::axial, Qt::Horizontal);
@@ -367,7 +383,7 @@ void CaseWindow::restore_arrangement(const QByteArray& arrangement) {
     docks_made_ = std::max(docks_made_, numbers[i]);
     addDockWidget(Qt::LeftDockWidgetArea, make_dock(static_cast<ViewKind>(kinds[i]), numbers[i]));
   }
-  if (!restoreState(state, kStateVersion)) set_layout(layout_);
+  if (!restoreState(state, kStateVersion)) arrange(layout_);
 }
 
 std::string CaseWindow::view_state() const {

@@ -42,6 +42,7 @@ class CaseWindow : public QMainWindow {
   PictureView* add_view(ViewKind kind);
   // One that is there comes to the front, else another view is added.
   PictureView* show_view(ViewKind kind);
+  // Becomes that of the next cases too.
   void set_layout(ViewLayout layout);
   [[nodiscard]] ViewLayout view_layout() const { return layout_; }
   // The view that was last clicked or has the keyboard, else the first. Null without
@@ -76,6 +77,7 @@ class CaseWindow : public QMainWindow {
   void changeEvent(QEvent* event) override;
 
  private:
+  void arrange(ViewLayout layout);
   PictureView* make_view(ViewKind kind);
   QDockWidget* make_dock(ViewKind kind) { return make_dock(kind, ++docks_made_); }
   QDockWidget* make_dock(ViewKind kind, int number);

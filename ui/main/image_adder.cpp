@@ -11,6 +11,7 @@
 #include "ui/opening/loading_view.h"
 #include "ui/opening/study_opener.h"
 #include "ui/settings.h"
+#include "ui/widgets/file_patterns.h"
 
 namespace tidemark::ui {
 namespace {
@@ -67,9 +68,8 @@ void ImageAdder::connect_opener() {
 }
 
 void ImageAdder::ask_for_file(CaseWindow& into) {
-  auto* dialog = new QFileDialog(
-      &into, tr("Add an image"), QString(),
-      tr("Images (*.dcm *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)"));
+  auto* dialog = new QFileDialog(&into, tr("Add an image"), QString(),
+                                 tr("Images (*.dcm %1);;All files (*)").arg(QLatin1String(kVolumePatterns)));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(QFileDialog::ExistingFile);
   const auto& origin = into.proxy().origin().path;

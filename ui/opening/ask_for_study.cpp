@@ -5,6 +5,7 @@
 #include <QFileInfo>
 
 #include "ui/settings.h"
+#include "ui/widgets/file_patterns.h"
 
 namespace tidemark::ui {
 namespace {
@@ -27,9 +28,9 @@ QString ask_for_image_file(QWidget& window) {
   const QString file = QFileDialog::getOpenFileName(
       &window, translated(QT_TRANSLATE_NOOP("tidemark::AskForStudy", "Open an image file")),
       settings::open_folder().get(),
-      translated(QT_TRANSLATE_NOOP("tidemark::AskForStudy",
-                                   "Images (*.dcm DICOMDIR *.zip *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd "
-                                   "*.gipl *.gipl.gz);;All files (*)")));
+      translated(
+          QT_TRANSLATE_NOOP("tidemark::AskForStudy", "Images (*.dcm DICOMDIR *.zip %1);;All files (*)"))
+          .arg(QLatin1String(kVolumePatterns)));
   if (!file.isEmpty()) settings::open_folder().set(QFileInfo(file).path());
   return file;
 }

@@ -98,9 +98,10 @@ QWidget* StartPage::build_opening() {
   column->setSpacing(8);
   column->addWidget(label(tr("Open a study"), 1.3, true, part));
   auto* folder = new CardButton(tr("Open folder…"), tr("DICOM images, in subfolders, too."), part);
-  auto* file = new CardButton(
-      tr("Open file…"),
-      tr("NIfTI, NRRD, MetaImage, GIPL, a DICOM image, a DICOMDIR, or a zip archive of these."), part);
+  auto* file = new CardButton(tr("Open file…"),
+                              tr("NIfTI, NRRD, MetaImage, GIPL, PNG, JPEG, TIFF, a DICOM image, a DICOMDIR, "
+                                 "or a zip archive of these."),
+                              part);
   folder->setObjectName("open_folder");
   file->setObjectName("open_file");
   connect(folder, &CardButton::clicked, this, &StartPage::open_folder);

@@ -118,13 +118,9 @@ void StudyOpener::begin(const QString& what) {
 void StudyOpener::look_at(const std::shared_ptr<const imaging::Catalogue>& catalogue) {
   catalogue_ = catalogue;
   if (uid_) return load_by_uid(*catalogue);
-  const auto& all = catalogue->series;
-  const auto can_be_chosen = [](const imaging::Series& series) {
-    return series.loadable || series.fillable();
-  };
-  if (ask_ == Ask::if_several && std::count_if(all.begin(), all.end(), can_be_chosen) == 1) {
-    return load_as_wanted(*std::find_if(all.begin(), all.end(), can_be_chosen));
-  }
+  auto choice = imaging::meant_series(*catalogue, {});
+  std::erase_if(choice, [](const auto* series) { return !series->loadable && !series->fillable(); });
+  if (ask_ == Ask::if_several && choice.size() == 1) return load_as_wanted(*choice.front());
   browser_ = new SeriesBrowser(window_);
   browser_->setAttribute(Qt::WA_DeleteOnClose);
   browser_->show_catalogue(catalogue, path_);

@@ -11,6 +11,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/panels/refine_choice.h"
+#include "ui/widgets/file_patterns.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 
@@ -71,9 +72,8 @@ bool FileStartMethod::can_start() const {
 void FileStartMethod::choose() {
   const QString filter =
       kind_ == StartFile::mask
-          ? tr("Masks and segmentations (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz *.dcm);;"
-               "All files (*)")
-          : tr("Volumes (*.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)");
+          ? tr("Masks and segmentations (%1 *.dcm);;All files (*)").arg(QLatin1String(kVolumePatterns))
+          : tr("Volumes (%1);;All files (*)").arg(QLatin1String(kVolumePatterns));
   auto* dialog =
       new QFileDialog(this, tr("Place surface from a file"), QFileInfo(path_->text()).path(), filter);
   dialog->setAttribute(Qt::WA_DeleteOnClose);

@@ -9,6 +9,7 @@
 #include "document/speed_map.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/widgets/file_patterns.h"
 
 namespace tidemark::ui {
 
@@ -50,9 +51,8 @@ void MapChoice::refresh() {
 }
 
 void MapChoice::choose() {
-  auto* dialog = new QFileDialog(
-      this, tr("Map that drives the surface"), {},
-      tr("Maps (*.dcm *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.gipl *.gipl.gz);;All files (*)"));
+  auto* dialog = new QFileDialog(this, tr("Map that drives the surface"), {},
+                                 tr("Maps (*.dcm %1);;All files (*)").arg(QLatin1String(kVolumePatterns)));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(QFileDialog::ExistingFile);
   connect(dialog, &QFileDialog::fileSelected, this, &MapChoice::read);

@@ -56,9 +56,9 @@ void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases)
   painter.drawEllipse(centre, radius, radius);
 }
 
-void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up) {
-  const auto letters = [](glm::dvec3 direction) {
-    return QString::fromStdString(renderer::orientation_letters(direction));
+void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up, bool is_known) {
+  const auto letters = [is_known](glm::dvec3 direction) {
+    return is_known ? QString::fromStdString(renderer::orientation_letters(direction)) : QStringLiteral("?");
   };
   const QRectF all(QPointF(kMargin, kMargin), size - QSizeF(2 * kMargin, 2 * kMargin));
   paint_text(painter, all, Qt::AlignRight | Qt::AlignVCenter, letters(right));

@@ -31,8 +31,8 @@ inline constexpr QColor kComparedColour(0, 222, 190);
 // A sphere's outline; one that takes away is dashed.
 void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases);
 
-// The letters of the patient's sides in the middle of the four edges.
-void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up);
+// The letters of the patient's sides in the middle of the four edges; "?" where they are not known.
+void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dvec3 up, bool is_known);
 // A bar whose length is a round number of millimetres.
 void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel);
 // With a gap in the middle.

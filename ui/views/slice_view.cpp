@@ -274,7 +274,7 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   paint_marks(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
   paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
-  paint_orientation(painter, size(), o.right, o.up);
+  paint_orientation(painter, size(), o.right, o.up, proxy().study().oriented);
   paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
   paint_corners(painter);
   paint_legend(painter);
@@ -346,9 +346,11 @@ void SliceViewWidget::follow_marks() {
 
 void SliceViewWidget::paint_corners(QPainter& painter) const {
   const engine::DisplaySettings& s = settings();
-  // The convention is about left and right: sagittal slices have neither.
+  // The convention is about left and right: sagittal slices have neither, and of some studies they are
+  // unknown.
+  const bool has_sides = plane_ != SlicePlane::sagittal && proxy().study().oriented;
   const QString convention = s.radiological ? tr("radiological") : tr("neurological");
-  paint_study(painter, plane_ == SlicePlane::sagittal ? QString() : convention);
+  paint_study(painter, has_sides ? convention : QString());
   const Place now = place();
   QStringList lines;
   lines << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(now.thickness_mm, 0, 'g', 3);

@@ -256,8 +256,9 @@ void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
 void VolumeViewWidget::paint_overlay(QPainter& painter) {
   const renderer::Camera& camera = settings().camera;
   if (settings().volume_box) paint_volume_box(painter, proxy().volume().geometry, screen());
-  if (settings().orientation_cube) paint_orientation_cube(painter, size(), camera);
-  paint_orientation(painter, size(), camera.right(), camera.up());
+  const bool is_oriented = proxy().study().oriented;
+  if (settings().orientation_cube && is_oriented) paint_orientation_cube(painter, size(), camera);
+  paint_orientation(painter, size(), camera.right(), camera.up(), is_oriented);
   paint_scale_bar(painter, size(), mm_per_pixel());
   paint_study(painter);
   const bool is_coloured = settings().surface && settings().colouring == renderer::SurfaceColouring::plain;

@@ -234,7 +234,7 @@ class StudyArchiveTest : public QObject {
     row("no entries", std::string("PK\x05\x06", 4) + std::string(18, '\0'), "holds no DICOM series");
     write_archive(file, {{"a.txt", "hello"}});
     const std::string text = contents(file);
-    row("no study", text, "holds no DICOM series or volume file");
+    row("no study", text, "holds no DICOM series, volume file or picture");
     write_archive(file, {{"a.txt", "hello"}, {"b.txt", "hello"}});
     const std::string two = contents(file);
     const auto size = [&](const std::string& bytes) { return with(text, kRecord, 24, bytes); };
@@ -313,7 +313,7 @@ class StudyArchiveTest : public QObject {
   void many_empty_files_are_told_in_one_line_at_once_data() {
     QTest::addColumn<int>("count");
     QTest::addColumn<QString>("why");
-    QTest::newRow("as many as there may be") << 50'000 << "holds no DICOM series or volume file";
+    QTest::newRow("as many as there may be") << 50'000 << "holds no DICOM series, volume file or picture";
     QTest::newRow("more") << 65'534 << "has 65534 entries, more than 50000";
   }
 

@@ -84,7 +84,6 @@ std::vector<BadDicom> place_rows() {
   const std::string good = frame_groups("0\\0\\0");
   return {
       {"no shared groups", file(enhanced(2).remove(kSharedGroups)), "(0020,0037) is missing"},
-      {"one frame", file(enhanced(1)), "single image"},
       {"two frames at one place", with_groups({good, good}), "lie at the same position"},
       {"a distance beyond numbers", file(mosaic(csa_of_mosaic()).put_text(0x00180088, "DS", "1e300")),
        "(0018,0088)"},

@@ -3,18 +3,29 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <QProcess>
+#include <algorithm>
 #include <clocale>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <mutex>
 
 #include "imaging/dicom/dicom.h"
+#include "imaging/load_study.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
 using namespace tidemark;
 namespace fs = std::filesystem;
+
+namespace {
+
+bool says(const std::vector<std::string>& sentences, const char* text) {
+  return std::any_of(sentences.begin(), sentences.end(),
+                     [&](const std::string& one) { return one.find(text) != std::string::npos; });
+}
+
+}  // namespace
 
 class DicomSeriesTest : public QObject {
   Q_OBJECT
@@ -123,17 +134,69 @@ class DicomSeriesTest : public QObject {
     }
   }
 
-  void two_slices_make_a_volume_and_one_does_not() {
+  void two_slices_make_a_volume_and_one_is_a_slice_of_its_thickness() {
     const test::TemporaryFolder folder;
-    const auto files = test::write_series(test::sample_volume({7, 5, 2}), folder / "series");
+    const Volume written = test::sample_volume({7, 5, 2});
+    const auto files = test::write_series(written, folder / "series");
     const imaging::Series two = test::only_series(folder.path());
     QVERIFY2(two.loadable, two.reason.c_str());
     QVERIFY(std::abs(two.geometry.spacing_mm.z - 2.5) < 1e-9);
     fs::remove(files[1]);
     const imaging::Series one = test::only_series(folder.path());
-    QVERIFY(!one.loadable);
-    QVERIFY2(one.reason.find("slice-00001.dcm") != std::string::npos, one.reason.c_str());
-    QVERIFY2(one.reason.find("at least two") != std::string::npos, one.reason.c_str());
+    QVERIFY2(one.loadable, one.reason.c_str());
+    QCOMPARE(one.geometry.size, (Index3{7, 5, 1}));
+    const auto slice = imaging::load_dicom(one);
+    QCOMPARE(test::failure(slice), QString());
+    for (std::int64_t v = 0; v < 35; ++v) QCOMPARE(slice->value(v), written.value(v));
+    // Where the slice lay among others, and as thick as its file says.
+    QVERIFY(glm::distance(slice->geometry.origin_mm, written.geometry.origin_mm) < 1e-3);
+    for (int axis = 0; axis < 3; ++axis) {
+      QVERIFY(glm::distance(slice->geometry.direction[axis], written.geometry.direction[axis]) < 1e-6);
+    }
+    QVERIFY(glm::distance(slice->geometry.spacing_mm, written.geometry.spacing_mm) < 1e-6);
+    QVERIFY(says(slice->changes, "SliceThickness"));
+    QVERIFY(
+        imaging::by_policy(one, {imaging::GridPolicy::Tilt::keep, imaging::GridPolicy::Gaps::fill}).loadable);
+
+    test::set_text(files[0], 0x0018, 0x0050, "");
+    const imaging::Series thin = test::only_series(folder.path());
+    QCOMPARE(thin.geometry.spacing_mm.z, 1.0);
+    QVERIFY(says(thin.changes, "counts as 1 mm thick"));
+  }
+
+  // What a plain radiograph or a captured picture has.
+  void a_single_image_without_a_place_is_a_slice_that_says_so() {
+    const test::TemporaryFolder folder;
+    const auto file = test::write_series(test::sample_volume({7, 5, 2}), folder / "series")[0];
+    fs::remove(folder / "series" / "slice-00002.dcm");
+    test::set_text(file, 0x0020, 0x0032, "");
+    test::set_text(file, 0x0020, 0x0037, "");
+    test::set_text(file, 0x0028, 0x0030, "");
+    test::set_text(file, 0x0018, 0x1164, "0.2\\0.1");
+    const imaging::Series detector = test::only_series(folder.path());
+    QVERIFY2(detector.loadable, detector.reason.c_str());
+    QCOMPARE(glm::dvec2(detector.geometry.spacing_mm), glm::dvec2(0.1, 0.2));
+    QCOMPARE(detector.geometry.origin_mm, glm::dvec3(0.0));
+    QVERIFY(detector.frame_of_reference_uid.empty());
+    QVERIFY(says(detector.warnings, "lengths are those on the detector"));
+    QVERIFY(says(detector.warnings, "does not say where it lies in the patient"));
+
+    test::set_text(file, 0x0018, 0x1164, "");
+    const imaging::Series nothing = test::only_series(folder.path());
+    QCOMPARE(glm::dvec2(nothing.geometry.spacing_mm), glm::dvec2(1.0));
+    QVERIFY(says(nothing.warnings, "PixelSpacing (0028,0030) is missing: a pixel counts as 1 mm"));
+    QVERIFY(imaging::load_dicom(nothing));
+  }
+
+  void several_images_without_a_place_are_no_volume_still() {
+    const test::TemporaryFolder folder;
+    for (const auto& file : test::write_series(test::sample_volume({7, 5, 2}), folder / "series")) {
+      test::set_text(file, 0x0020, 0x0032, "");
+    }
+    const imaging::Series two = test::only_series(folder.path());
+    QVERIFY(!two.loadable);
+    QVERIFY2(two.reason.find("ImagePositionPatient (0020,0032) is missing") != std::string::npos,
+             two.reason.c_str());
   }
 
   void a_missing_slice_is_refused_by_name() {

@@ -231,7 +231,6 @@ class DicomStudiesTest : public QObject {
     row("d04_ct_tilt_ge", {"uneven slice distances", "14.dcm", "15.dcm", "1.081 mm", "4.002 mm"});
     row("d09_gap_ct_ge", {"1 slice is missing", "IM-0001-0009-0001.dcm", "IM-0001-0010-0001.dcm"});
     row("d17_rgb_not_a_volume", {"SamplesPerPixel", "RGB", "IM-0001-0001-0001.dcm"});
-    row("d20_monochrome1", {"gdcm-CR-MONO1-10-chest.dcm", "single image"});
   }
 
   void what_is_no_volume_is_refused_by_its_reason() {

@@ -110,6 +110,20 @@ class RegistrationTest : public QObject {
     QCOMPARE(found.error().kind, ErrorKind::usage);
     QVERIFY(found.error().message.find("single value") != std::string::npos);
   }
+
+  void a_single_slice_is_refused() {
+    Volume slice = head_;
+    slice.geometry.size.z = 1;
+    std::visit([&](auto& voxels) { voxels.resize(static_cast<std::size_t>(slice.geometry.voxel_count())); },
+               slice.voxels);
+    for (const bool is_moving : {true, false}) {
+      const auto found =
+          is_moving ? imaging::register_rigidly(slice, head_) : imaging::register_rigidly(head_, slice);
+      QVERIFY(!found);
+      QCOMPARE(found.error().kind, ErrorKind::usage);
+      QVERIFY(found.error().message.find("single slice") != std::string::npos);
+    }
+  }
 };
 
 TIDEMARK_TEST(RegistrationTest)
