@@ -1,6 +1,7 @@
 #include "ui/views/measure_drags.h"
 
 #include <glm/geometric.hpp>
+#include <optional>
 
 namespace tidemark::ui {
 namespace {
@@ -54,6 +55,24 @@ void AngleDrag::release() {
   const auto& points = display().settings().measurements.back().points_mm;
   const double leg_mm = glm::distance(points[points.size() - 1], points[points.size() - 2]);
   if (leg_mm < 2.0 * view().mm_per_pixel) remove_last(display());
+}
+
+ProfileDrag::ProfileDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)) {
+  line_.points_mm = {*pressed.patient_mm, *pressed.patient_mm};
+}
+
+void ProfileDrag::set(const std::optional<engine::Measurement>& line) {
+  display().change([&](engine::DisplaySettings& settings) { settings.profile = line; });
+}
+
+void ProfileDrag::move(const Pointer& pointer) {
+  if (!pointer.patient_mm) return;
+  line_.points_mm[1] = *pointer.patient_mm;
+  set(line_);
+}
+
+void ProfileDrag::release() {
+  if (line_.value() < 2.0 * view().mm_per_pixel) set(std::nullopt);
 }
 
 }  // namespace tidemark::ui
