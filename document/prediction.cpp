@@ -11,9 +11,9 @@
 namespace tidemark::document {
 namespace {
 
-constexpr double kShape = 0.6;         // largest spacings that a ball's surface may be uneven by
-constexpr double kLeastRadius = 2.0;   // largest spacings: the grid shows no smaller ball
-constexpr double kShell = 1.0;         // largest spacings: how thick the shells are in which D is looked at
+constexpr double kShape = 0.6;        // largest spacings that a ball's surface may be uneven by
+constexpr double kLeastRadius = 2.0;  // largest spacings: the grid shows no smaller ball
+constexpr double kShell = 1.0;        // largest spacings: how thick the shells are in which D is looked at
 
 // What drives and holds the surface in a shell around a ball.
 struct Shell {
@@ -50,8 +50,8 @@ class Surroundings {
             sum += d;
             squares += (d - around) * (d - around);
             const auto& constraints = inputs_.constraints;
-            shell.held = shell.held || (constraints && constraints->at(first + Index3(i, 0, 0)) !=
-                                                           solver::Constraint::none);
+            shell.held = shell.held || (constraints &&
+                                        constraints->at(first + Index3(i, 0, 0)) != solver::Constraint::none);
           }
           shell.voxels += count;
         });
@@ -147,10 +147,14 @@ void follow(Prediction& prediction, const Room& room, double radius_mm, std::int
   double radius = radius_mm;
   std::int64_t steps = 0;
   const auto ends = [&](double at) {
-    if (at <= 0.0) prediction.end = Prediction::End::vanishes;
-    else if (at >= room.outer_mm) prediction.end = room.outside;
-    else if (at <= room.inner_mm) prediction.end = Prediction::End::tissue;
-    else return false;
+    if (at <= 0.0)
+      prediction.end = Prediction::End::vanishes;
+    else if (at >= room.outer_mm)
+      prediction.end = room.outside;
+    else if (at <= room.inner_mm)
+      prediction.end = Prediction::End::tissue;
+    else
+      return false;
     return true;
   };
   add(0, radius);
@@ -163,8 +167,7 @@ void follow(Prediction& prediction, const Room& room, double radius_mm, std::int
   }
   const std::size_t stride = (prediction.points.size() - 1) / Prediction::kMostPoints + 1;
   std::vector<PredictedPoint> kept;
-  for (std::size_t i = 0; i + 1 < prediction.points.size(); i += stride)
-    kept.push_back(prediction.points[i]);
+  for (std::size_t i = 0; i + 1 < prediction.points.size(); i += stride) kept.push_back(prediction.points[i]);
   kept.push_back(prediction.points.back());
   prediction.points = std::move(kept);
 }
@@ -173,11 +176,13 @@ void follow(Prediction& prediction, const Room& room, double radius_mm, std::int
 
 std::optional<double> Prediction::radius_at(std::int64_t step) const {
   if (points.empty() || step < points.front().step || step > points.back().step) return std::nullopt;
-  const auto after = std::lower_bound(points.begin(), points.end(), step,
-                                      [](const PredictedPoint& point, std::int64_t at) { return point.step < at; });
+  const auto after =
+      std::lower_bound(points.begin(), points.end(), step,
+                       [](const PredictedPoint& point, std::int64_t at) { return point.step < at; });
   if (after->step == step) return after->radius_mm;
   const PredictedPoint& before = *(after - 1);
-  const double share = static_cast<double>(step - before.step) / static_cast<double>(after->step - before.step);
+  const double share =
+      static_cast<double>(step - before.step) / static_cast<double>(after->step - before.step);
   return glm::mix(before.radius_mm, after->radius_mm, share);
 }
 

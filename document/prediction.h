@@ -22,11 +22,11 @@ struct PredictedPoint {
 struct Prediction {
   // Why there is none.
   enum class Obstacle {
-    none,        // there is one
-    shape,       // the surface is no ball, or smaller than the grid can show
-    speed,       // D is not the same all around the surface
-    held,        // walls, anchors or a limit hold it there
-    follows,     // D follows the surface, or carries it along
+    none,     // there is one
+    shape,    // the surface is no ball, or smaller than the grid can show
+    speed,    // D is not the same all around the surface
+    held,     // walls, anchors or a limit hold it there
+    follows,  // D follows the surface, or carries it along
   };
   // Why it ends.
   enum class End {
@@ -54,6 +54,7 @@ inline constexpr double kEvenSpeed = 0.05;
 
 // Of the surface at that step. Takes the time to look at D where the ball will come. Fails
 // (ErrorKind::cancelled).
-Result<Prediction> predict(const solver::StepInputs& inputs, std::int64_t step, const Progress& progress = {});
+Result<Prediction> predict(const solver::StepInputs& inputs, std::int64_t step,
+                           const Progress& progress = {});
 
 }  // namespace tidemark::document

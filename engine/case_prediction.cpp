@@ -10,7 +10,9 @@ constexpr int kRest = 9;  // times as long as a prediction takes: while somethin
 }  // namespace
 
 CasePrediction::CasePrediction(QObject* parent)
-    : QObject(parent), question_(this, &CasePrediction::compute, [this] { emit answered(); }, kRest) {}
+    : QObject(parent),
+      question_(
+          this, &CasePrediction::compute, [this] { emit answered(); }, kRest) {}
 
 // Steps alone change phi and step; the first point of a long curve may be left out of it.
 bool CasePrediction::still_holds(const Base& now) const {

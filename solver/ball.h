@@ -26,8 +26,8 @@ Result<std::optional<Ball>> ball_of(const Field& phi, double tolerance_mm, const
 // How a ball's radius changes in tissue in which D is the same everywhere:
 // dR/dt = growth - shrinking / R, with t in the equation's units of time, as Executor::time_step().
 //
-// dphi/dt = (alpha D + (1 - alpha) kappa) |grad phi|, with lengths in smallest spacings h and kappa the sum of
-// both principal curvatures, -2 h / R on a ball. Rescaling does not move the surface.
+// dphi/dt = (alpha D + (1 - alpha) kappa) |grad phi|, with lengths in smallest spacings h and kappa the sum
+// of both principal curvatures, -2 h / R on a ball. Rescaling does not move the surface.
 struct BallLaw {
   double growth = 0.0;     // alpha D h, mm per unit of time; 0 without the data term
   double shrinking = 0.0;  // 2 (1 - alpha) h^2, mm^2 per unit of time; 0 without the curvature term

@@ -27,7 +27,8 @@ class Counting {
   }
   [[nodiscard]] GradientHistogram::Part part() const {
     GradientHistogram::Part part = part_;
-    if (part.voxels > 0) part.deviation = std::sqrt(std::max(squares_, 0.0) / static_cast<double>(part.voxels));
+    if (part.voxels > 0)
+      part.deviation = std::sqrt(std::max(squares_, 0.0) / static_cast<double>(part.voxels));
     return part;
   }
 

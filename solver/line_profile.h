@@ -22,8 +22,8 @@ struct LineProfile {
   std::vector<double> crossings_mm;  // where phi = 0, from the line's beginning
 };
 
-// At `count` >= 2 places, evenly from one end to the other (LPS, mm), interpolated trilinearly. Places outside
-// of the volume are left out. phi and source are on one grid.
+// At `count` >= 2 places, evenly from one end to the other (LPS, mm), interpolated trilinearly. Places
+// outside of the volume are left out. phi and source are on one grid.
 [[nodiscard]] LineProfile line_profile(const Field& phi, const Volume& source, glm::dvec3 from_mm,
                                        glm::dvec3 to_mm, int count);
 

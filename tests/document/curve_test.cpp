@@ -24,12 +24,12 @@ std::vector<std::int64_t> steps(const document::Curve::Points& points) {
 // The problem, or nothing; `points` as they were read.
 QString read(const std::string& text, document::Curve::Points* points = nullptr) {
   const auto json = JsonDocument::parse(text, "curve.json");
-  if (!json) return failure(json);
+  if (!json) return test::failure(json);
   const std::string file = "curve.json";
   const JsonField root(*json, file);
   const document::Curve curve = document::read_curve(root);
   if (points != nullptr) *points = *curve.points();
-  return failure(root.status());
+  return test::failure(root.status());
 }
 
 document::Curve::Points read_back(const document::Curve::Points& points) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "solver/statistics.h"
+
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
@@ -23,7 +25,8 @@ std::shared_ptr<const Volume> even_volume(Index3 size, glm::dvec3 spacing = glm:
   const glm::dvec3 middle = volume->geometry.to_patient(0.5 * glm::dvec3(size - Index3(1)));
   std::vector<float> voxels;
   for (std::int64_t offset = 0; offset < volume->geometry.voxel_count(); ++offset) {
-    const double distance = glm::distance(volume->geometry.to_patient(volume->geometry.voxel_at(offset)), middle);
+    const double distance =
+        glm::distance(volume->geometry.to_patient(volume->geometry.voxel_at(offset)), middle);
     voxels.push_back(distance < tissue_mm ? static_cast<float>(kTissue) : -50.0F);
   }
   volume->voxels = std::move(voxels);
@@ -49,7 +52,8 @@ struct Run {
       : volume(std::move(source)) {
     solver::ExecutorOptions options;
     options.threads = 1;
-    executor = std::move(solver::make_executor(solver::ExecutorKind::host, volume, parameters, options).value());
+    executor =
+        std::move(solver::make_executor(solver::ExecutorKind::host, volume, parameters, options).value());
     if (!executor->paint(ball_at(*volume, off_mm, radius_mm), solver::Brush::add)) qFatal("paint failed");
   }
 
@@ -112,49 +116,73 @@ class PredictionTest : public QObject {
     QTest::addColumn<double>("alpha");
     QTest::addColumn<double>("data_speed");
     QTest::addColumn<double>("radius_mm");
-    QTest::addColumn<glm::dvec3>("spacing");
     QTest::addColumn<double>("until_mm");  // the radius
+    QTest::addColumn<glm::dvec3>("spacing");
+    QTest::addColumn<bool>("rescaling");
+    // How far the radius may be from the law: in parts of it, and of the way that the front has gone. The law
+    // is that of the equation. Upwind differences are of first order, and rescaling in a band of 2.5 voxels
+    // draws the surface inwards, so that the longer way is the less exact one.
+    QTest::addColumn<double>("of_radius");
+    QTest::addColumn<double>("of_way");
     const glm::dvec3 cubes(1.0);
-    QTest::newRow("curvature alone") << 0.0 << 1.0 << 12.0 << cubes << 4.0;
-    QTest::newRow("curvature alone, half the spacing") << 0.0 << 1.0 << 6.0 << 0.5 * cubes << 2.0;
-    QTest::newRow("curvature alone, larger") << 0.0 << 1.0 << 20.0 << cubes << 4.0;
-    QTest::newRow("curvature alone, thick slices") << 0.0 << 1.0 << 14.0 << glm::dvec3(1, 1, 2) << 8.0;
-    QTest::newRow("data alone, outward") << 1.0 << 1.0 << 8.0 << cubes << 22.0;
-    QTest::newRow("data alone, slowly") << 1.0 << 0.3 << 8.0 << cubes << 20.0;
-    QTest::newRow("data alone, inward") << 1.0 << -1.0 << 20.0 << cubes << 4.0;
-    QTest::newRow("both, outward") << 0.5 << 1.0 << 8.0 << cubes << 22.0;
-    QTest::newRow("both, below the critical radius") << 0.2 << 0.5 << 12.0 << cubes << 4.0;
-    QTest::newRow("both, inward") << 0.6 << -0.7 << 20.0 << cubes << 4.0;
-    QTest::newRow("both, thick slices") << 0.6 << 1.0 << 9.0 << glm::dvec3(1, 1, 2) << 20.0;
+    QTest::newRow("curvature") << 0.0 << 1.0 << 12.0 << 4.0 << cubes << false << 0.02 << 0.01;
+    QTest::newRow("curvature, larger") << 0.0 << 1.0 << 20.0 << 4.0 << cubes << false << 0.02 << 0.01;
+    QTest::newRow("curvature, half the spacing")
+        << 0.0 << 1.0 << 6.0 << 2.0 << 0.5 * cubes << false << 0.02 << 0.01;
+    QTest::newRow("curvature, thick slices")
+        << 0.0 << 1.0 << 14.0 << 8.0 << glm::dvec3(1, 1, 2) << false << 0.02 << 0.03;
+    QTest::newRow("curvature, rescaled") << 0.0 << 1.0 << 12.0 << 6.0 << cubes << true << 0.02 << 0.05;
+    QTest::newRow("curvature, rescaled, to the end")
+        << 0.0 << 1.0 << 20.0 << 4.0 << cubes << true << 0.15 << 0.05;
+    QTest::newRow("data, outward") << 1.0 << 1.0 << 8.0 << 22.0 << cubes << true << 0.025 << 0.05;
+    QTest::newRow("data, slowly") << 1.0 << 0.3 << 8.0 << 20.0 << cubes << true << 0.025 << 0.05;
+    QTest::newRow("data, inward") << 1.0 << -1.0 << 20.0 << 10.0 << cubes << true << 0.025 << 0.04;
+    QTest::newRow("both, outward") << 0.5 << 1.0 << 8.0 << 22.0 << cubes << true << 0.04 << 0.08;
+    QTest::newRow("both, inward against growth")
+        << 0.2 << 0.2 << 12.0 << 7.0 << cubes << true << 0.04 << 0.06;
+    QTest::newRow("both, inward") << 0.6 << -0.7 << 20.0 << 10.0 << cubes << true << 0.025 << 0.04;
+    QTest::newRow("both, thick slices")
+        << 0.6 << 1.0 << 9.0 << 20.0 << glm::dvec3(1, 1, 2) << true << 0.04 << 0.08;
   }
 
-  // 2 % of the radius.
   void the_solver_keeps_to_it() {
     QFETCH(double, alpha);
     QFETCH(double, data_speed);
     QFETCH(double, radius_mm);
-    QFETCH(glm::dvec3, spacing);
     QFETCH(double, until_mm);
-    const Index3 size(glm::ceil(52.0 / spacing));
-    Run run(even_volume(radius_mm > 6.0 ? size : size / std::int64_t{2}, spacing),
-            parameters_of(alpha, data_speed), radius_mm);
+    QFETCH(glm::dvec3, spacing);
+    QFETCH(bool, rescaling);
+    QFETCH(double, of_radius);
+    QFETCH(double, of_way);
+    solver::Parameters parameters = parameters_of(alpha, data_speed);
+    parameters.rescaling_term = rescaling;
+    const double wide_mm = radius_mm > 6.0 ? 52.0 : 20.0;
+    Run run(even_volume(Index3(glm::ceil(wide_mm / spacing)), spacing), parameters, radius_mm);
     const Prediction prediction = run.prediction();
     QVERIFY(prediction.holds());
-    QVERIFY(std::abs(prediction.points.front().radius_mm - radius_mm) < 0.02 * radius_mm);
+    const double from_mm = prediction.points.front().radius_mm;
+    QVERIFY(std::abs(from_mm - radius_mm) < 0.01 * radius_mm);
     if (alpha > 0.0) QVERIFY(std::abs(prediction.data_speed - data_speed) < 1e-5);
     const bool grows = until_mm > radius_mm;
+    const auto goes_on = [&](double at_mm) { return grows ? at_mm < until_mm : at_mm > until_mm; };
     double worst = 0.0;
-    double now = radius_mm;
-    for (int i = 0; i < 400 && (grows ? now < until_mm : now > until_mm); ++i) {
-      run.advance(4);
-      now = run.radius_mm();
+    double last = 0.0;
+    double now = from_mm;
+    while (goes_on(now) && run.step < 2000) {
       const auto predicted = prediction.radius_at(run.step);
       QVERIFY2(predicted, qPrintable(QString("nothing at step %1, radius %2").arg(run.step).arg(now)));
-      if (grows ? now < until_mm : now > until_mm) worst = std::max(worst, std::abs(now / *predicted - 1.0));
+      worst = std::max(worst, std::abs(now / *predicted - 1.0));
+      last =
+          std::abs(now - *predicted) / std::max(std::abs(now - from_mm), 0.5 * std::abs(until_mm - from_mm));
+      run.advance(4);
+      now = run.radius_mm();
     }
-    QVERIFY2(grows ? now >= until_mm : now <= until_mm, qPrintable(QString::number(now)));
-    qInfo("largest error %.2f %% of the radius", 100.0 * worst);
-    QVERIFY2(worst < 0.02, qPrintable(QString::number(worst)));
+    QVERIFY2(!goes_on(now), qPrintable(QString::number(now)));
+    qInfo("at most %.2f %% of the radius, in the end %.2f %% of the way", 100.0 * worst, 100.0 * last);
+    QVERIFY2(worst < of_radius, qPrintable(QString::number(worst)));
+    QVERIFY2(last < of_way, qPrintable(QString::number(last)));
+    // It is still a ball for it.
+    QVERIFY(run.prediction().holds());
   }
 
   // From the present radius, with what holds from there on.
@@ -198,7 +226,7 @@ class PredictionTest : public QObject {
     QCOMPARE(prediction.end, Prediction::End::tissue);
     QVERIFY(std::abs(prediction.points.back().radius_mm - 13.0) < 1.5);
     walls = std::make_shared<solver::Constraints>(*walls);
-    walls->set(run.volume->geometry, ball_at(*run.volume, {8.0, 0.0, 0.0}, 1.0), solver::Constraint::wall);
+    walls->set(run.volume->geometry, ball_at(*run.volume, {9.0, 0.5, 0.5}, 0.6), solver::Constraint::wall);
     QVERIFY(run.executor->set_constraints(walls));
     QCOMPARE(run.prediction().obstacle, Prediction::Obstacle::held);
   }

@@ -62,7 +62,8 @@ class SurfaceAgreementTest : public QObject {
     QVERIFY(std::abs(found.distance->largest_mm - 2.0) < 0.1);
     QVERIFY(std::abs(found.distance->mean_mm - 1.0) < 0.1);
     // Of the ball's area a part s lies where |cos| < s, so that 95 % are no farther than 0.95 d.
-    QVERIFY2(std::abs(found.distance->most_mm - 1.9) < 0.1, qPrintable(QString::number(found.distance->most_mm)));
+    QVERIFY2(std::abs(found.distance->most_mm - 1.9) < 0.1,
+             qPrintable(QString::number(found.distance->most_mm)));
   }
 
   // A spot far away moves the Hausdorff distance and hardly the 95th percentile, which is what it is for.

@@ -30,7 +30,8 @@ EvolutionCurves::EvolutionCurves(QWidget* parent)
   Form predicted(predicted_part_);
   legend_ = new CurveLegend;
   predicted.wide(legend_);
-  radius_ = predicted.figure(tr("Radius"), tr("Of the ball with the surface's volume, and what the law says."));
+  radius_ =
+      predicted.figure(tr("Radius"), tr("Of the ball with the surface's volume, and what the law says."));
   form.wide(predicted_part_);
   predicted_part_->hide();
   volume_ = new CurvePlot(tr("Volume"), tr("ml"), false);

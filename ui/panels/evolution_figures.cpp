@@ -26,18 +26,19 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
                                   "it and nothing else, 0 nothing of it."));
   mean_distance_ = truth.figure(tr("Mean distance"), tr("Between the surface and the true one, both ways, on "
                                                         "average. As often as a tenth of the time allows."));
-  most_distance_ =
-      truth.figure(tr("Hausdorff 95"), tr("95 of 100 places of the two surfaces are no farther from the other "
-                                          "one (the 95th percentile of the distances of both ways)."));
+  most_distance_ = truth.figure(tr("Hausdorff 95"),
+                                tr("95 of 100 places of the two surfaces are no farther from the other "
+                                   "one (the 95th percentile of the distances of both ways)."));
   truth_ =
       truth.check(tr("Show the truth"), tr("Draws the outline of the true shape into slices, in violet."));
   connect(truth_, &QCheckBox::clicked, this, [this](bool on) {
     change_display([=](engine::DisplaySettings& settings) { settings.truth = on; });
   });
-  truth_error_ = truth.check(tr("Distances to the truth"),
-                             tr("Orange: what the surface has too much. Blue and hatched: what it has too little. "
-                                "The stronger, the farther; the dark line is the true outline. In 3D the "
-                                "surface has these colours."));
+  truth_error_ =
+      truth.check(tr("Distances to the truth"),
+                  tr("Orange: what the surface has too much. Blue and hatched: what it has too little. "
+                     "The stronger, the farther; the dark line is the true outline. In 3D the "
+                     "surface has these colours."));
   connect(truth_error_, &QCheckBox::clicked, this, [this](bool on) {
     change_display([=](engine::DisplaySettings& settings) { settings.truth_error = on; });
   });

@@ -37,12 +37,14 @@ GradientFigures::GradientFigures(QWidget* parent)
   column->addWidget(fold_);
   fold_->set_title(tr("Gradient of φ"));
   Form form(fold_->content());
-  plot_->setToolTip(tr("How many voxels have which |∇φ|. The dashed line is the target of the rescaling term, "
-                       "at which it holds φ; without the term the histogram spreads."));
+  plot_->setToolTip(
+      tr("How many voxels have which |∇φ|. The dashed line is the target of the rescaling term, "
+         "at which it holds φ; without the term the histogram spreads."));
   form.wide(plot_);
   near_ = form.figure(tr("Near the surface"),
                       tr("Mean and standard deviation of |∇φ| where |φ| is at most 1.5 voxels."));
-  band_ = form.figure(tr("Whole band"), tr("The same of all voxels of the band that have no clamped neighbour."));
+  band_ =
+      form.figure(tr("Whole band"), tr("The same of all voxels of the band that have no clamped neighbour."));
   connect(fold_, &Disclosure::toggled, this, [this](bool open) {
     if (open && proxy()) return refresh();
     question_.forget();

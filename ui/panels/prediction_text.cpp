@@ -53,17 +53,21 @@ QString name_of_law(const solver::BallLaw& law) {
 QString text_of_prediction(const Prediction& prediction, double spacing_mm) {
   const solver::BallLaw& law = prediction.law;
   QStringList lines;
-  lines << tr("Dashed: a ball in even tissue, by %1. R is in the smallest voxel spacing (%2), t in the equation's "
+  lines << tr("Dashed: a ball in even tissue, by %1. R is in the smallest voxel spacing (%2), t in the "
+              "equation's "
               "units of time.")
                .arg(name_of_law(law), length_text(spacing_mm));
-  if (law.growth != 0.0) lines << tr("D = %1 all around the surface.").arg(number_text(prediction.data_speed, 2));
+  if (law.growth != 0.0)
+    lines << tr("D = %1 all around the surface.").arg(number_text(prediction.data_speed, 2));
   if (const auto critical = law.critical_radius_mm())
     lines << tr("Balls below a radius of %1 shrink, larger ones grow.").arg(length_text(*critical));
   const document::PredictedPoint& first = prediction.points.front();
   lines << tr("It begins at step %1 with the radius measured there, %2. Whatever is steered begins it anew.")
                .arg(count_text(first.step), length_text(first.radius_mm));
   if (const QString end = text_of_end(prediction); !end.isEmpty()) lines << end;
-  lines << tr("Below a radius of four voxels the grid is too coarse for it.");
+  lines << tr(
+      "It is the equation's law. Steps on a grid lag behind it by some hundredths of the way, most where "
+      "rescaling draws a small ball inwards.");
   return lines.join('\n');
 }
 

@@ -35,9 +35,10 @@ ProfileControls::ProfileControls(QWidget* parent) : CaseWidget(parent), content_
   drawn_ = new QWidget;
   Form drawn(drawn_);
   plot_ = new ProfilePlot;
-  plot_->setToolTip(tr("φ from the line's beginning to its end, positive and shaded inside of the surface; below it "
-                       "the brightness with T and the band T ± ε in which the data term grows the surface. "
-                       "Dotted: where φ = 0."));
+  plot_->setToolTip(
+      tr("φ from the line's beginning to its end, positive and shaded inside of the surface; below it "
+         "the brightness with T and the band T ± ε in which the data term grows the surface. "
+         "Dotted: where φ = 0."));
   drawn.wide(plot_);
   crossings_ = drawn.figure(tr("φ = 0 at"), tr("From the line's beginning, which is the round end."));
   form.wide(drawn_);
@@ -45,16 +46,16 @@ ProfileControls::ProfileControls(QWidget* parent) : CaseWidget(parent), content_
   clear_ = new QPushButton(tr("Clear"));
   clear_->setToolTip(tr("Forget the line."));
   form.wide(clear_);
-  connect(clear_, &QPushButton::clicked, this, [this] {
-    change_display([](engine::DisplaySettings& settings) { settings.profile.reset(); });
-  });
+  connect(clear_, &QPushButton::clicked, this,
+          [this] { change_display([](engine::DisplaySettings& settings) { settings.profile.reset(); }); });
 }
 
 // What is to be seen is known before its place is.
 void ProfileControls::resizeEvent(QResizeEvent* event) {
   CaseWidget::resizeEvent(event);
   if (std::exchange(comes_to_sight_, false))
-    QMetaObject::invokeMethod(this, [this] { scroll_to(this); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this, [this] { scroll_to(this); }, Qt::QueuedConnection);
 }
 
 void ProfileControls::refresh() {
@@ -75,8 +76,7 @@ void ProfileControls::show_line(const engine::Measurement& line) {
   const engine::CaseState& state = proxy()->state();
   const Volume& source = *proxy()->source();
   ProfilePlot::Content content;
-  content.profile =
-      solver::line_profile(*state.phi, source, line.points_mm[0], line.points_mm[1], kPlaces);
+  content.profile = solver::line_profile(*state.phi, source, line.points_mm[0], line.points_mm[1], kPlaces);
   content.length_mm = line.value();
   content.band = state.band;
   content.spacing_mm = smallest_spacing_mm(source.geometry);

@@ -28,7 +28,8 @@ void ProfilePlot::set_content(Content content) {
 }
 
 QSize ProfilePlot::sizeHint() const {
-  return {240, static_cast<int>(kPhiHeight + kValueHeight) + 3 * fontMetrics().height() + 2 * kSpaceTight + 4};
+  return {240,
+          static_cast<int>(kPhiHeight + kValueHeight) + 3 * fontMetrics().height() + 2 * kSpaceTight + 4};
 }
 
 // Between the numbers at both sides.
@@ -84,7 +85,8 @@ void ProfilePlot::paintEvent(QPaintEvent* /*event*/) {
 
   const Pane value = value_pane();
   const QString unit = content_.unit.isEmpty() ? QString() : QStringLiteral(", ") + content_.unit;
-  paint_pane(painter, value, tr("Brightness%1").arg(unit), content_.range > 0.0 ? tr("band: T ± ε") : QString());
+  paint_pane(painter, value, tr("Brightness%1").arg(unit),
+             content_.range > 0.0 ? tr("band: T ± ε") : QString());
   paint_ticks(painter, value, 0.0);
   painter.setClipRect(value.area);
   if (content_.range > 0.0) {
@@ -128,7 +130,8 @@ void ProfilePlot::paint_inside(QPainter& painter, const Pane& pane) const {
   const auto end_at = [&](double at_mm) {
     const double left = pane.along.pixel(from);
     if (is_inside)
-      painter.fillRect(QRectF(left, pane.area.top(), pane.along.pixel(at_mm) - left, pane.area.height()), inside);
+      painter.fillRect(QRectF(left, pane.area.top(), pane.along.pixel(at_mm) - left, pane.area.height()),
+                       inside);
     from = at_mm;
     is_inside = !is_inside;
   };
@@ -165,7 +168,8 @@ void ProfilePlot::paint_along(QPainter& painter, const Pane& pane) const {
   for (const double tick : ticks(pane.along, kAlongPixels)) {
     const double x = pane.along.pixel(tick);
     painter.drawLine(QPointF(x, pane.area.bottom()), QPointF(x, pane.area.bottom() + 2.0));
-    const QRectF place(x - 0.5 * kAlongPixels, pane.area.bottom() + 3.0, kAlongPixels, fontMetrics().height());
+    const QRectF place(x - 0.5 * kAlongPixels, pane.area.bottom() + 3.0, kAlongPixels,
+                       fontMetrics().height());
     painter.drawText(place, Qt::AlignHCenter | Qt::AlignTop, general_text(tick, 4));
   }
   const QRectF unit(0.0, pane.area.bottom() + 3.0, width(), fontMetrics().height());

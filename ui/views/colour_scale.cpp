@@ -40,8 +40,7 @@ ColourScale scale_of_truth_error(double range_mm) {
 
 ColourScale scale_of_change(double within_mm) {
   const QString far = general_text(within_mm, 3);
-  return {kDiverging,
-          text(QT_TRANSLATE_NOOP("View", "Change")),
+  return {kDiverging, text(QT_TRANSLATE_NOOP("View", "Change")),
           QCoreApplication::translate("View", "−%1 mm removed").arg(far),
           QCoreApplication::translate("View", "added +%1 mm").arg(far)};
 }
