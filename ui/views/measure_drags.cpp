@@ -1,7 +1,6 @@
 #include "ui/views/measure_drags.h"
 
 #include <glm/geometric.hpp>
-#include <optional>
 
 namespace tidemark::ui {
 namespace {
@@ -61,18 +60,15 @@ ProfileDrag::ProfileDrag(DragView view, const Pointer& pressed) : Drag(std::move
   line_.points_mm = {*pressed.patient_mm, *pressed.patient_mm};
 }
 
-void ProfileDrag::set(const std::optional<engine::Measurement>& line) {
-  display().change([&](engine::DisplaySettings& settings) { settings.profile = line; });
-}
-
 void ProfileDrag::move(const Pointer& pointer) {
   if (!pointer.patient_mm) return;
   line_.points_mm[1] = *pointer.patient_mm;
-  set(line_);
+  display().change([&](engine::DisplaySettings& settings) { settings.profile = line_; });
 }
 
 void ProfileDrag::release() {
-  if (line_.value() < 2.0 * view().mm_per_pixel) set(std::nullopt);
+  if (line_.value() >= 2.0 * view().mm_per_pixel) return;
+  display().change([](engine::DisplaySettings& settings) { settings.profile.reset(); });
 }
 
 }  // namespace tidemark::ui

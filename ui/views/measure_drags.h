@@ -35,7 +35,6 @@ class ProfileDrag : public Drag {
   void release() override;
 
  private:
-  void set(const std::optional<engine::Measurement>& line);
   engine::Measurement line_;
 };
 
