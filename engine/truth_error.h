@@ -1,4 +1,4 @@
-// How far the surface of a case is from a known answer, as a map for its views.
+// The distances of voxels from a known answer, as a map for the views of a case.
 #pragma once
 
 #include <QObject>
