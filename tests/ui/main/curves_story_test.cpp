@@ -24,12 +24,15 @@
 namespace tidemark::test {
 namespace {
 
+// By its accessible name, else by its text.
 template <class Widget>
 Widget* named(QWidget& in, const QString& name) {
+  Widget* by_text = nullptr;
   for (Widget* widget : in.findChildren<Widget*>()) {
-    if (widget->accessibleName() == name || widget->property("text").toString() == name) return widget;
+    if (widget->accessibleName() == name) return widget;
+    if (widget->property("text").toString() == name) by_text = widget;
   }
-  return nullptr;
+  return by_text;
 }
 
 // A part of the panel Level set, with its end in sight.
@@ -51,7 +54,7 @@ double radius_mm(Desktop& desktop) {
   return std::cbrt(1000.0 * desktop.state().surface.volume_ml * 0.75 / M_PI);
 }
 
-int pixels(const ui::PictureView& view, const std::function<bool(const QColor&)>& counts) {
+int pixels(ui::PictureView& view, const std::function<bool(const QColor&)>& counts) {
   const QImage picture = view.grab_picture();
   int count = 0;
   for (int y = 0; y < picture.height(); ++y) {
