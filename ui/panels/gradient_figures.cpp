@@ -64,7 +64,7 @@ void GradientFigures::refresh() {
     question_.forget();
     return show_answer();
   }
-  question_.ask({state.phi, 2.0 * state.parameters.target_gradient});
+  question_.ask({state.phi, GradientPlot::kTargets * state.parameters.target_gradient});
 }
 
 void GradientFigures::show_answer() {

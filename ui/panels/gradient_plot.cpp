@@ -46,7 +46,7 @@ void GradientPlot::paintEvent(QPaintEvent* /*event*/) {
   paint_legend(painter);
   paint_axis(painter, area);
   if (histogram_ && histogram_->band.voxels > 0) paint_bars(painter, area);
-  const double x = axis_of(area, 2.0 * target_).pixel(target_);
+  const double x = axis_of(area, kTargets * target_).pixel(target_);
   painter.setPen(QPen(palette().color(QPalette::Text), 1.25, Qt::DashLine));
   painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
 }
@@ -72,7 +72,7 @@ void GradientPlot::paint_bars(QPainter& painter, const QRectF& area) const {
 }
 
 void GradientPlot::paint_axis(QPainter& painter, const QRectF& area) const {
-  const PlotAxis axis = axis_of(area, 2.0 * target_);
+  const PlotAxis axis = axis_of(area, kTargets * target_);
   painter.setPen(palette().color(QPalette::WindowText));
   for (const double tick : ticks(axis, kTickPixels)) {
     const double x = axis.pixel(tick);

@@ -11,6 +11,9 @@ namespace tidemark::ui {
 class GradientPlot : public QWidget {
   Q_OBJECT
  public:
+  // The axis reaches so many targets: at a sharp border the data term steepens phi well above its target.
+  static constexpr double kTargets = 4.0;
+
   explicit GradientPlot(QWidget* parent = nullptr);
 
   // Unset: nothing is known.

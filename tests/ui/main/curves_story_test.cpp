@@ -1,10 +1,10 @@
 // Figures that predict and judge: a ball's law, distances to a truth, gradients, and phi along a line.
 #include <QCheckBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QObject>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QSlider>
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
@@ -134,10 +134,12 @@ void CurvesStoryTest::a_ball_follows_its_law_until_it_meets_other_tissue() {
   part<ui::EvolutionCurves>(desktop);
   in_both_themes(desktop, "curves-2-thirty-steps");
 
-  // Another alpha, by a key on the slider: the law begins anew where the surface is.
-  auto* alpha = named<QSlider>(desktop.window(), "Data weight α");
+  // Another alpha is typed: the law begins anew where the surface is.
+  auto* alpha = named<QDoubleSpinBox>(desktop.window(), "Data weight α");
   alpha->setFocus();
-  QTest::keyClick(alpha, Qt::Key_Home);
+  alpha->selectAll();
+  QTest::keyClicks(alpha, "0");
+  QTest::keyClick(alpha, Qt::Key_Return);
   QVERIFY(Desktop::wait_for([&] { return legend->predicted() == QStringLiteral("R = √(R₀² − 4(1−α)t)"); }));
   QCOMPARE(volume->predicted().front().x(), 30.0);
   desktop.proxy().step(40);
