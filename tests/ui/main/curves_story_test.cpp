@@ -196,10 +196,10 @@ void CurvesStoryTest::distances_to_the_truth_are_told_and_seen() {
 
   // Too much of it is orange.
   const int orange_before = pixels(*axial, is_orange);
-  desktop.proxy().paint({desktop.seed_mm() + glm::dvec3(0.0, 30.0, 0.0), 12.0}, solver::Brush::add,
+  desktop.proxy().paint({desktop.seed_mm() + glm::dvec3(0.0, 42.0, 0.0), 12.0}, solver::Brush::add,
                         engine::CaseProxy::new_gesture());
   desktop.wait_until_idle();
-  QVERIFY(Desktop::wait_for([&] { return pixels(*axial, is_orange) > orange_before + 300; }));
+  QVERIFY(Desktop::wait_for([&] { return pixels(*axial, is_orange) > orange_before + 150; }));
   desktop.screenshot("truth-3-too-much");
   QTest::mouseClick(shown, Qt::LeftButton, {}, QPoint(8, shown->height() / 2));
   QVERIFY(Desktop::wait_for([&] { return pixels(*axial, is_orange) < orange_before + 100; }));
