@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace tidemark::document {
@@ -12,6 +13,7 @@ struct CurvePoint {
   double volume_ml = 0.0;
   double surface_mm2 = 0.0;
   double surface_speed = 0.0;  // root mean square, smallest spacings per unit of time (kConvergedSpeed)
+  std::optional<double> dice = std::nullopt;  // against a known answer
 
   bool operator==(const CurvePoint&) const = default;
 };

@@ -52,8 +52,8 @@ Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, boo
   document::LevelSet& level_set = document.level_set();
   const document::Curve::Points& before = *level_set.curve().points();
   const double last_speed = before.empty() ? 0.0 : before.back().surface_speed;
-  level_set.note(
-      {level_set.step(), surface_.volume_ml, surface_.surface_mm2, surface_speed_.value_or(last_speed)});
+  level_set.note({level_set.step(), surface_.volume_ml, surface_.surface_mm2,
+                  surface_speed_.value_or(last_speed), dice_});
   const document::EvolvedSurface evolved{*phi_,
                                          surface_.voxels_inside,
                                          level_set.step(),

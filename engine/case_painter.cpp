@@ -141,9 +141,9 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
     canvas.speed = speed_;
     canvas.renderer->set_speed(canvas.speed);
   }
-  if (const auto limit = level_set.recipe().start.limit(); canvas.limit != limit) {
-    canvas.limit = limit;
-    canvas.renderer->set_change(limit == nullptr ? nullptr : limit->change());
+  if (const auto change = shown_change(level_set); canvas.change != change) {
+    canvas.change = change;
+    canvas.renderer->set_change(change);
   }
   TIDEMARK_TRY(show_labels(canvas, document.labels()));
   const bool phi_is_old = canvas.phi != phi_revision_ || (with_pages && canvas.pages != phi_revision_);
@@ -154,6 +154,13 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
     if (with_pages) canvas.pages = phi_revision_;
   }
   return {};
+}
+
+std::shared_ptr<const solver::SpeedFunction> CasePainter::shown_change(
+    const document::LevelSet& level_set) const {
+  if (truth_error_) return truth_error_;
+  const auto limit = level_set.recipe().start.limit();
+  return limit == nullptr ? nullptr : limit->change();
 }
 
 Result<CasePainter::Canvas*> CasePainter::canvas_for(const AnyView& view, document::Case& document) {

@@ -42,6 +42,13 @@ class CasePainter {
   // What speed maps show; null: the tent.
   void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) { speed_ = std::move(speed); }
 
+  // How far voxels are from a known answer's surface, shown in place of how far the surface has moved; null:
+  // that is not wanted.
+  void set_truth_error(std::shared_ptr<const solver::SpeedFunction> error) {
+    truth_error_ = std::move(error);
+    look_changed();
+  }
+
   [[nodiscard]] bool out_of_date(ViewSlot& slot) const;
   // Draws the next picture of a view and announces it. Returns whether a better one can follow. Fails
   // (ErrorKind::cancelled) when stopped, (ErrorKind::capability) when the context was lost.
@@ -73,12 +80,14 @@ class CasePainter {
     std::vector<document::Label> label_list;
     std::optional<solver::Parameters> parameters;
     std::shared_ptr<const solver::SpeedFunction> speed;
-    std::shared_ptr<const solver::MotionLimit> limit;
+    std::shared_ptr<const solver::SpeedFunction> change;
   };
 
   Result<Canvas*> canvas_for(const AnyView& view, document::Case& document);
   Status prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, document::Case& document,
                  bool with_pages);
+  [[nodiscard]] std::shared_ptr<const solver::SpeedFunction> shown_change(
+      const document::LevelSet& level_set) const;
   static Status show_labels(Canvas& canvas, const document::Labels& labels);
   Status show_phi(Canvas& canvas, document::Case& document, bool with_pages);
   Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Canvas& canvas, std::int64_t step,
@@ -97,6 +106,7 @@ class CasePainter {
   Canvas shown_;   // the volume as it was loaded
   Canvas solved_;  // the level set's source, where that is another one
   std::shared_ptr<const solver::SpeedFunction> speed_;
+  std::shared_ptr<const solver::SpeedFunction> truth_error_;
   std::shared_ptr<const solver::Field> phi_;
   std::int64_t phi_revision_ = 0;
   std::uint64_t look_revision_ = 1;

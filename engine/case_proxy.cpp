@@ -9,6 +9,7 @@
 #include "engine/case_runner.h"
 #include "engine/case_sweep.h"
 #include "engine/lock_step.h"
+#include "engine/truth_error.h"
 
 namespace tidemark::engine {
 
@@ -33,9 +34,16 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
   runner_ = std::make_shared<CaseRunner>(engine_, study_, executor, std::move(receiver), std::move(restored));
   post([](CaseRunner& runner, const Progress&) { return runner.open(); });
   connect(&display_, &Display::changed, this, &CaseProxy::use_images_of_display);
+  truth_error_ = std::make_unique<TruthError>(display_, study_->truth, [this](const TruthError::Map& map) {
+    post([map](CaseRunner& runner, const Progress&) {
+      runner.painter().set_truth_error(map);
+      return Status();
+    });
+  });
 }
 
 CaseProxy::~CaseProxy() {
+  truth_error_.reset();
   balance_.reset();
   weak_receiver_->close();
   engine_.cancel(runner_.get());

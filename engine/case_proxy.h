@@ -34,6 +34,7 @@ class CaseBalance;
 class CaseRunner;
 class CaseSweep;
 class LockStep;
+class TruthError;
 class WeakReceiver;
 
 // A case as a session file had it. One that was rescued is in no file that the user knows.
@@ -179,6 +180,7 @@ class CaseProxy : public QObject {
   std::unique_ptr<CaseSweep> sweep_;
   CaseState state_;
   std::unique_ptr<CaseBalance> balance_;
+  std::unique_ptr<TruthError> truth_error_;
   solver::Parameters wanted_parameters_;
   document::Drive wanted_drive_;
   std::int64_t steps_per_picture_ = 0;

@@ -342,6 +342,9 @@ void CaseRunner::publish() {
   state.parameters = level_set.parameters();
   state.step = level_set.step();
   state.begun = level_set.begun();
+  const document::Recipe& recipe = level_set.recipe();
+  state.steered = recipe.events.size();
+  state.steered_at = recipe.events.empty() ? 0 : recipe.events.back().step;
   state.playing = playing_;
   state.leak = leak_watch_.alarm();
   state.pace = pace_.steps_per_second();
@@ -369,8 +372,8 @@ void CaseRunner::publish() {
   state.open_change = case_->history().open_state();
   state.modified = case_->changed_since_save() || restored_.rescued;
   state.edits = case_->history().edits();
-  state.start_text = QString::fromStdString(level_set.recipe().start.describe());
-  state.limit = level_set.recipe().start.limit();
+  state.start_text = QString::fromStdString(recipe.start.describe());
+  state.limit = recipe.start.limit();
   meter_.report(state);
   post_.send(std::move(state));
 }

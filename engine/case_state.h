@@ -33,8 +33,10 @@ struct LeakAlarm {
 // A case after the engine's last job for it.
 struct CaseState {
   solver::Parameters parameters;
-  std::int64_t step = 0;  // since the start
-  bool begun = false;     // there is a surface
+  std::int64_t step = 0;        // since the start
+  bool begun = false;           // there is a surface
+  std::int64_t steered_at = 0;  // the step of the last edit since the start, else 0
+  std::uint64_t steered = 0;    // how many edits there were since the start
   bool playing = false;
   bool converged = false;
   document::Outcome outcome = document::Outcome::unfinished;  // as of the last measurement

@@ -28,6 +28,7 @@ enum class Tool {
   erase,           // erases; the right button adds
   measure_distance,
   measure_angle,
+  profile,   // phi and brightness along a line
   examples,  // strokes: the left button inside, the right one outside
   wall,      // keeps the surface out; the right button takes walls and anchors away
   why,       // explains how the surface moves where it is clicked
@@ -52,6 +53,7 @@ struct DisplaySettings {
   bool change = true;                                          // of a mask that is refined
   bool forces = false;                                         // arrows of the terms, in 3D, too
   bool truth = false;                                          // the outline of a phantom's known answer
+  bool truth_error = false;                                    // how far the surface is from it, in colours
   renderer::SpeedTerm speed_term = renderer::SpeedTerm::data;  // of the speed map
   bool radiological = true;        // the patient's right on the left of the screen
   bool patient_text = true;        // names and dates in the corners
@@ -82,6 +84,7 @@ struct DisplaySettings {
   bool wall_behind_eraser = false;   // what is erased does not grow back
   int chosen_primitive = 0;          // of transfer.source: probing sets it
   std::vector<Measurement> measurements;
+  std::optional<Measurement> profile;  // the line, a distance, along which values are plotted
 
   bool operator==(const DisplaySettings&) const = default;
 };

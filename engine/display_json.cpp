@@ -53,6 +53,7 @@ Json slices_json(const DisplaySettings& s) {
           {"label_opacity", s.label_opacity},
           {"crosshair", s.crosshair},
           {"truth", s.truth},
+          {"truth_error", s.truth_error},
           {"forces", s.forces},
           {"marks", s.marks},
           {"change", s.change},
@@ -78,6 +79,7 @@ void read_slices(const JsonField& field, DisplaySettings& s) {
   read(field, "label_opacity", 0.0, 1.0, s.label_opacity);
   read(field, "crosshair", s.crosshair);
   read(field, "truth", s.truth);
+  read(field, "truth_error", s.truth_error);
   read(field, "forces", s.forces);
   read(field, "marks", s.marks);
   read(field, "change", s.change);

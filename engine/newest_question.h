@@ -1,6 +1,8 @@
 // Answers to the newest of many questions, found away from the thread of the user interface.
 #pragma once
 
+#include <QTimer>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -18,8 +20,12 @@ class NewestQuestion {
  public:
   // `answer` runs on a thread of its own; `answered` is called on the receiver's.
   using Work = std::function<Answer(const Question&, const std::stop_token&)>;
-  NewestQuestion(QObject* receiver, Work work, std::function<void()> answered)
-      : receiver_(receiver), work_(std::move(work)), answered_(std::move(answered)) {}
+  // `rest`: after an answer nothing is asked for that many times as long as it took.
+  NewestQuestion(QObject* receiver, Work work, std::function<void()> answered, int rest = 0)
+      : receiver_(receiver), work_(std::move(work)), answered_(std::move(answered)), rest_(rest) {
+    pause_.setSingleShot(true);
+    QObject::connect(&pause_, &QTimer::timeout, receiver_, [this] { follow(); });
+  }
   ~NewestQuestion() {
     if (job_) job_->abandon();
   }
@@ -29,12 +35,13 @@ class NewestQuestion {
   void ask(Question question) {
     if (asked_ == question) return;
     asked_ = std::move(question);
-    if (!job_) start();
+    if (!job_ && !pause_.isActive()) start();
   }
   // Neither question nor answer any more.
   void forget() {
     if (job_) job_->abandon();
     job_.reset();
+    pause_.stop();
     asked_.reset();
     answer_.reset();
   }
@@ -52,7 +59,10 @@ class NewestQuestion {
   [[nodiscard]] bool waits() const { return job_ != nullptr; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void start() {
+    began_ = Clock::now();
     job_ = BackgroundJob::start(
         receiver_,
         [this, work = work_, question = *asked_](BackgroundJob& job) {
@@ -68,13 +78,20 @@ class NewestQuestion {
   void take(Answered answered) {
     job_.reset();
     answer_ = std::move(answered);
+    if (rest_ > 0) pause_.start(rest_ * std::chrono::ceil<std::chrono::milliseconds>(Clock::now() - began_));
     answered_();
+    if (!pause_.isActive()) follow();
+  }
+  void follow() {
     if (!job_ && asked_ && answer_ && asked_ != answer_->question) start();
   }
 
   QObject* receiver_;
   Work work_;
   std::function<void()> answered_;
+  int rest_;
+  Clock::time_point began_;
+  QTimer pause_;
   std::optional<Question> asked_;
   std::optional<Answered> answer_;
   std::shared_ptr<BackgroundJob> job_;  // while one runs

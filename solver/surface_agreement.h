@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "core/progress.h"
 #include "solver/field.h"
+#include "solver/point_tree.h"
 
 namespace tidemark::solver {
 
@@ -12,7 +14,24 @@ namespace tidemark::solver {
 // with the other.
 struct SurfaceDistance {
   double mean_mm = 0.0;
+  double most_mm = 0.0;     // the 95th percentile of all distances of both ways ("HD95")
   double largest_mm = 0.0;  // the Hausdorff distance
+};
+
+// A surface made ready for distances to others.
+class MeasuredSurface {
+ public:
+  // Fails (ErrorKind::cancelled).
+  static Result<MeasuredSurface> of(const Field& phi, const Progress& progress = {});
+
+  [[nodiscard]] bool empty() const { return crossings_.points().empty(); }
+  // Unset: one of them is empty. Their grids must be the same. Fails (ErrorKind::cancelled).
+  [[nodiscard]] Result<std::optional<SurfaceDistance>> distance_to(const MeasuredSurface& other,
+                                                                   const Progress& progress = {}) const;
+
+ private:
+  explicit MeasuredSurface(PointTree crossings) : crossings_(std::move(crossings)) {}
+  PointTree crossings_;
 };
 
 struct SurfaceAgreement {

@@ -156,6 +156,11 @@ Json to_json(const RunFigures& figures) {
   object["surface_mm2"] = figures.surface.surface_mm2;
   object["voxels_inside"] = figures.surface.voxels_inside;
   if (figures.dice) object["dice"] = *figures.dice;
+  if (const auto& distance = figures.truth_distance) {
+    object["truth_distance"] = {{"mean_mm", distance->mean_mm},
+                                {"hausdorff95_mm", distance->most_mm},
+                                {"hausdorff_mm", distance->largest_mm}};
+  }
   object["resident_pages"] = memory.resident_pages;
   object["peak_resident_pages"] = memory.peak_resident_pages;
   object["quiet_pages"] = memory.quiet_pages;
@@ -192,6 +197,10 @@ void say(Console& console, const RunFigures& figures) {
   console.say("Pages      {} (at most {}), {:.1f} MB of solver state", figures.memory.resident_pages,
               figures.memory.peak_resident_pages, static_cast<double>(figures.memory.state_bytes) / kMebi);
   if (figures.dice) console.say("Dice       {:.4f} against the truth", *figures.dice);
+  if (const auto& distance = figures.truth_distance) {
+    console.say("Distance   {:.2f} mm to the truth on average, 95 % within {:.2f} mm, all within {:.2f} mm",
+                distance->mean_mm, distance->most_mm, distance->largest_mm);
+  }
   if (figures.wider_range) {
     console.say(
         "Hint       stopped inside of like tissue: its values vary more than --range {:.6g}; try {:.6g}",

@@ -11,6 +11,7 @@
 #include "document/outcome.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
+#include "solver/surface_agreement.h"
 
 namespace tidemark::cli {
 
@@ -44,8 +45,9 @@ struct RunFigures {
   std::optional<double> wider_range;
   solver::MemoryReport memory;
   solver::SurfaceStatistics surface;
-  std::optional<double> dice;
-  std::optional<MaskChange> change;  // of a mask that it began with
+  std::optional<double> dice;                             // against a truth
+  std::optional<solver::SurfaceDistance> truth_distance;  // to it
+  std::optional<MaskChange> change;                       // of a mask that it began with
 };
 
 // What happened to a surface that is of no use, and what to try; empty: nothing of the kind.

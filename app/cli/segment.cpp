@@ -4,10 +4,13 @@
 #include "app/cli/program.h"
 #include "app/cli/run_inputs.h"
 #include "app/cli/segment_options.h"
+#include "solver/distance_transform.h"
+#include "solver/surface_agreement.h"
 
 namespace tidemark::cli {
 namespace {
 
+constexpr double kTruthBand = 2.0;  // nothing but where the surface lies is taken from it
 constexpr const char* kSummary = "Grows a surface from a start and writes mask, surface and figures";
 constexpr const char* kDescription =
     "Segments INPUT: a surface starts at seeds or a mask, grows where brightness is within target -+ range\n"
@@ -40,6 +43,7 @@ class Segmentation {
 
  private:
   Status evolve();
+  Status compare_with_truth();
   void say_warnings();
 
   Console& console_;
@@ -82,7 +86,17 @@ Status Segmentation::evolve() {
   if (const auto* mask = std::get_if<document::MaskStart>(&recipe.start.from)) {
     figures.change = change_between(*mask->mask, results_.mask);
   }
-  if (truth_) figures.dice = dice(results_.mask, *truth_);
+  return compare_with_truth();
+}
+
+Status Segmentation::compare_with_truth() {
+  if (!truth_) return {};
+  RunFigures& figures = results_.figures;
+  figures.dice = dice(results_.mask, *truth_);
+  const solver::Field truth = solver::distance_transform(*truth_, kTruthBand);
+  auto agreement = solver::agreement(results_.phi, truth, console_.progress());
+  if (!agreement) return pass_on(agreement);
+  figures.truth_distance = agreement->distance;
   return {};
 }
 

@@ -44,7 +44,8 @@ void add_run_options(CLI::App& app, SegmentOptions& options) {
 
 void add_comparison_options(CLI::App& app, SegmentOptions& options) {
   const char* const kGroup = "Results";
-  app.add_option("--truth", options.truth, "A mask to compare with: the Dice overlap goes into the figures")
+  app.add_option("--truth", options.truth,
+                 "A mask to compare with: the figures say how well results agree with it")
       ->type_name("MASK")
       ->group(kGroup);
   add_count(app, "--truth-label", options.truth_label,

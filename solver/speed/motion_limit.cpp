@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/distance_transform.h"
+#include "solver/speed/distance_map.h"
 
 namespace tidemark::solver {
 namespace {
@@ -60,26 +61,6 @@ std::shared_ptr<const Constraints> constraints_of(const Field& distance, double 
   return constraints;
 }
 
-class ChangeMap final : public SpeedFunction {
- public:
-  ChangeMap(Field distance, double within) : distance_(std::move(distance)), within_(within) {}
-
-  void evaluate(const VoxelBox& box, double* change) const override {
-    for (std::int64_t z = 0; z < box.size.z; ++z) {
-      for (std::int64_t y = 0; y < box.size.y; ++y) {
-        for (std::int64_t x = 0; x < box.size.x; ++x) {
-          const auto distance = static_cast<double>(distance_.at(box.first + Index3(x, y, z)));
-          *change++ = std::clamp(-distance / within_, -1.0, 1.0);
-        }
-      }
-    }
-  }
-
- private:
-  Field distance_;
-  double within_;  // in units of the smallest spacing
-};
-
 }  // namespace
 
 const MotionLimit::Made& MotionLimit::made() const {
@@ -89,7 +70,7 @@ const MotionLimit::Made& MotionLimit::made() const {
     // Beyond the limit and what is written of it, nothing needs to be known.
     Field distance = distance_transform(*mask_, within + 2.0 * static_cast<double>(kLimitReach));
     made_.constraints = constraints_of(distance, within);
-    made_.change = std::make_shared<ChangeMap>(std::move(distance), within);
+    made_.change = distance_map(std::move(distance), within);
   });
   return made_;
 }

@@ -49,6 +49,10 @@ void CliRunTest::a_sphere_phantom_is_found_segmented_and_measured() {
   QCOMPARE(json_of(bytes_of(folder_ / "stats.json")), stats);
   QVERIFY(stats["converged"].toBool());
   QVERIFY2(stats["dice"].toDouble() > 0.97, outcome.told());
+  const QJsonObject distance = stats["truth_distance"].toObject();
+  QVERIFY2(distance["mean_mm"].toDouble() > 0.0 && distance["mean_mm"].toDouble() < 1.0, outcome.told());
+  QVERIFY(distance["hausdorff95_mm"].toDouble() >= distance["mean_mm"].toDouble());
+  QVERIFY(distance["hausdorff_mm"].toDouble() >= distance["hausdorff95_mm"].toDouble());
 
   const auto truth = imaging::read_volume_file(sphere_ / "truth.nii.gz");
   const auto series = must_run({"info", text(sphere_ / "series"), "--json"});

@@ -51,6 +51,7 @@ class SurfaceAgreementTest : public QObject {
     const auto found = between(small, large);
     QVERIFY(std::abs(found.distance->mean_mm - 5.0) < 0.1);
     QVERIFY(std::abs(found.distance->largest_mm - 5.0) < 0.15);
+    QVERIFY(std::abs(found.distance->most_mm - 5.0) < 0.15);
     QCOMPARE(found.dice, dice(small.mask(), large.mask()));
     QCOMPARE(between(large, small).distance->mean_mm, found.distance->mean_mm);
   }
@@ -60,6 +61,35 @@ class SurfaceAgreementTest : public QObject {
     const auto found = between(ball({0, 0, 0}, 10.0), ball({2.0, 0, 0}, 10.0));
     QVERIFY(std::abs(found.distance->largest_mm - 2.0) < 0.1);
     QVERIFY(std::abs(found.distance->mean_mm - 1.0) < 0.1);
+    // Of the ball's area a part s lies where |cos| < s, so that 95 % are no farther than 0.95 d.
+    QVERIFY2(std::abs(found.distance->most_mm - 1.9) < 0.1,
+             qPrintable(QString::number(found.distance->most_mm)));
+  }
+
+  // A spot far away moves the Hausdorff distance and hardly the 95th percentile, which is what it is for.
+  void a_few_voxels_far_away_do_not_count_in_the_percentile() {
+    const solver::Field clean = ball({0, 0, 0}, 10.0);
+    std::vector<float> values = clean.dense();
+    values[static_cast<std::size_t>(clean.geometry.offset({2, 22, 20}))] = 0.5F;
+    const auto found = between(clean, solver::Field::from_dense(clean.geometry, values, 2.5));
+    QVERIFY(found.distance->largest_mm > 7.0);
+    QCOMPARE(found.distance->most_mm, 0.0);
+    QVERIFY(found.distance->mean_mm < 0.05);
+  }
+
+  void a_surface_is_measured_once_for_many_comparisons() {
+    const solver::Field small = ball({0, 0, 0}, 8.0);
+    const auto known = solver::MeasuredSurface::of(small);
+    QVERIFY(known && !known->empty());
+    for (const double radius : {9.0, 12.0}) {
+      const solver::Field large = ball({0, 0, 0}, radius);
+      const auto other = solver::MeasuredSurface::of(large);
+      const auto found = other->distance_to(*known);
+      QVERIFY(found && *found);
+      QCOMPARE((*found)->mean_mm, between(small, large).distance->mean_mm);
+      QCOMPARE((*found)->most_mm, between(small, large).distance->most_mm);
+    }
+    QVERIFY(solver::MeasuredSurface::of(solver::Field::empty(grid(), 2.5))->empty());
   }
 
   void what_has_no_surface_has_no_distance() {

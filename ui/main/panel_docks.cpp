@@ -3,6 +3,7 @@
 #include <QMainWindow>
 #include <QScrollArea>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "engine/case_balance.h"
 #include "ui/main/case_head.h"
@@ -106,16 +107,25 @@ void PanelDocks::set_case(CaseWindow* window) {
   if (proxy_) {
     disconnect(proxy_, nullptr, this, nullptr);
     disconnect(&proxy_->balance(), nullptr, this, nullptr);
+    disconnect(&proxy_->display(), nullptr, this, nullptr);
   }
   proxy_ = proxy;
   begun_ = proxy && proxy->state().begun;
   if (proxy_) {
     connect(proxy_, &engine::CaseProxy::state_changed, this, &PanelDocks::follow_start);
     connect(&proxy_->balance(), &engine::CaseBalance::show_wanted, this, [this] { show("level-set"); });
+    connect(&proxy_->display(), &engine::Display::changed, this, &PanelDocks::follow_profile);
   }
+  has_profile_ = proxy && proxy->display().settings().profile;
   transfer_->set_display(proxy ? &proxy->display() : nullptr, proxy ? &proxy->summary() : nullptr,
                          proxy ? value_unit(proxy->volume()) : QString());
   show_or_hide();
+}
+
+// So does the one that plots what is along a line, once there is a line.
+void PanelDocks::follow_profile() {
+  const bool has_profile = proxy_->display().settings().profile.has_value();
+  if (std::exchange(has_profile_, has_profile) != has_profile && has_profile) show("level-set");
 }
 
 // Once there is a surface, the panel that steers it comes to the front in place of Start.

@@ -36,11 +36,13 @@ class PanelDocks : public QObject {
  private:
   QDockWidget* add(const char* name, const QString& title, QWidget* panel);
   void follow_start();
+  void follow_profile();
   void show_or_hide();
 
   QMainWindow& window_;
   QPointer<engine::CaseProxy> proxy_;
   bool begun_ = false;
+  bool has_profile_ = false;
   QList<QDockWidget*> docks_;
   QList<CaseWidget*> panels_;
   QList<CaseHead*> heads_;

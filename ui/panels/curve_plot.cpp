@@ -35,6 +35,23 @@ void CurvePlot::set_points(std::vector<QPointF> points) {
   update();
 }
 
+void CurvePlot::set_predicted(std::vector<QPointF> points) {
+  if (points == predicted_) return;
+  predicted_ = std::move(points);
+  update();
+}
+
+QPen CurvePlot::measured_pen(const QPalette& palette) {
+  return {palette.color(QPalette::Link), 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin};
+}
+
+QPen CurvePlot::predicted_pen(const QPalette& palette) {
+  QPen pen(palette.color(QPalette::Text), 1.25);
+  pen.setCapStyle(Qt::FlatCap);
+  pen.setDashPattern({4.0, 3.0});
+  return pen;
+}
+
 QString CurvePlot::last_text() const {
   if (points_.empty()) return QStringLiteral("–");
   const QString number = short_text(points_.back().y(), logarithmic_ ? 2 : 4);
@@ -59,6 +76,7 @@ CurvePlot::Span CurvePlot::span() const {
     span.high = std::max(span.high, value);
   };
   for (const QPointF& point : points_) include(scaled(point.y()));
+  for (const QPointF& point : predicted_) include(scaled(point.y()));
   if (mark_) include(scaled(*mark_));
   // A curve that does not move is a line in the middle, not noise from top to bottom.
   const double least = logarithmic_ ? 0.5 : std::max(kLeastShare * std::abs(span.high), 1e-9);
@@ -87,21 +105,27 @@ void CurvePlot::paint_curve(QPainter& painter, const QRectF& area) const {
   const Span values = span();
   const PlotAxis up{values.low, values.high, area.bottom(), area.top()};
   const double first = points_.front().x();
-  const PlotAxis along{first, std::max(points_.back().x(), first + 1.0), area.left(), area.right()};
+  const double ahead = predicted_.empty() ? first : predicted_.back().x();
+  const PlotAxis along{first, std::max({points_.back().x(), ahead, first + 1.0}), area.left(), area.right()};
   if (mark_) {
     painter.setPen(QPen(palette().color(QPalette::PlaceholderText), 1.0, Qt::DashLine));
     const double y = up.pixel(scaled(*mark_));
     painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
   }
-  QPolygonF curve;
-  curve.reserve(static_cast<qsizetype>(points_.size()));
-  for (const QPointF& point : points_) curve << QPointF(along.pixel(point.x()), up.pixel(scaled(point.y())));
-  const QColor line = palette().color(QPalette::Link);
-  painter.setPen(QPen(line, 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  const auto line_of = [&](const std::vector<QPointF>& points) {
+    QPolygonF line;
+    line.reserve(static_cast<qsizetype>(points.size()));
+    for (const QPointF& point : points) line << QPointF(along.pixel(point.x()), up.pixel(scaled(point.y())));
+    return line;
+  };
+  const QPolygonF curve = line_of(points_);
+  painter.setPen(measured_pen(palette()));
   painter.drawPolyline(curve);
   painter.setPen(Qt::NoPen);
-  painter.setBrush(line);
+  painter.setBrush(palette().color(QPalette::Link));
   painter.drawEllipse(curve.back(), 2.5, 2.5);
+  painter.setPen(predicted_pen(palette()));
+  painter.drawPolyline(line_of(predicted_));
 }
 
 }  // namespace tidemark::ui

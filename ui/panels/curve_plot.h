@@ -1,6 +1,7 @@
-// A small curve over the steps, with its last value in print.
+// A small curve over the steps, with its last value in print, and perhaps a predicted one.
 #pragma once
 
+#include <QPen>
 #include <QPointF>
 #include <QWidget>
 #include <optional>
@@ -18,7 +19,13 @@ class CurvePlot : public QWidget {
   void set_mark(double value, const QString& meaning);
   void set_points(std::vector<QPointF> points);  // (step, value), in order
   [[nodiscard]] const std::vector<QPointF>& points() const { return points_; }
+  // A dashed curve over it; empty: none.
+  void set_predicted(std::vector<QPointF> points);
+  [[nodiscard]] const std::vector<QPointF>& predicted() const { return predicted_; }
   [[nodiscard]] QString last_text() const;
+
+  static QPen measured_pen(const QPalette& palette);
+  static QPen predicted_pen(const QPalette& palette);
 
   [[nodiscard]] QSize sizeHint() const override;
   [[nodiscard]] QSize minimumSizeHint() const override;
@@ -40,6 +47,7 @@ class CurvePlot : public QWidget {
   bool logarithmic_;
   std::optional<double> mark_;
   std::vector<QPointF> points_;
+  std::vector<QPointF> predicted_;
 };
 
 }  // namespace tidemark::ui

@@ -3,12 +3,17 @@
 #include <QCheckBox>
 #include <QLabel>
 
-#include "ui/panels/curve_plot.h"
+#include "engine/truth_comparison.h"
 #include "ui/widgets/disclosure.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
+namespace {
+
+const QString kNothing = QStringLiteral("–");
+
+}  // namespace
 
 EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
@@ -19,14 +24,28 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
   dice_ =
       truth.figure(tr("Dice"), tr("How well the surface agrees with the phantom's true shape: 1 is all of "
                                   "it and nothing else, 0 nothing of it."));
+  mean_distance_ = truth.figure(tr("Mean distance"), tr("Between the surface and the true one, both ways, on "
+                                                        "average. As often as a tenth of the time allows."));
+  most_distance_ = truth.figure(tr("Hausdorff 95"),
+                                tr("95 of 100 places of the two surfaces are no farther from the other "
+                                   "one (the 95th percentile of the distances of both ways)."));
   truth_ =
       truth.check(tr("Show the truth"), tr("Draws the outline of the true shape into slices, in violet."));
   connect(truth_, &QCheckBox::clicked, this, [this](bool on) {
     change_display([=](engine::DisplaySettings& settings) { settings.truth = on; });
   });
+  truth_error_ =
+      truth.check(tr("Distances to the truth"),
+                  tr("Orange: what the surface has too much. Blue and hatched: what it has too little. "
+                     "The stronger, the farther; the dark line is the true outline. In 3D the "
+                     "surface has these colours."));
+  connect(truth_error_, &QCheckBox::clicked, this, [this](bool on) {
+    change_display([=](engine::DisplaySettings& settings) { settings.truth_error = on; });
+  });
   dice_part_->hide();  // until there is a phantom
   form.wide(dice_part_);
-  add_curves(form);
+  comparison_ = new engine::TruthComparison(this);
+  connect(comparison_, &engine::TruthComparison::answered, this, &EvolutionFigures::show_distances);
   auto* fold = new Disclosure(tr("Details of the figures"), QStringLiteral("figures"));
   form.wide(fold);
   Form details(fold->content());
@@ -41,51 +60,32 @@ void EvolutionFigures::add_details(Form& form) {
   bytes_ = form.figure(tr("Memory"), tr("What the level set takes, without the source."));
 }
 
-void EvolutionFigures::add_curves(Form& form) {
-  form.heading(tr("Over the steps"));
-  volume_ = new CurvePlot(tr("Volume"), tr("ml"), false);
-  area_ = new CurvePlot(tr("Area"), tr("mm²"), false);
-  motion_ = new CurvePlot(tr("Motion"), QString(), true);
-  volume_->setToolTip(tr("The volume inside the surface, over the steps."));
-  area_->setToolTip(tr("The area of the surface, over the steps."));
-  motion_->set_mark(solver::kConvergedSpeed,
-                    tr("How fast the surface moves, on a logarithmic scale: 1 is a front "
-                       "that the data drives as fast as can be. Below the dashed line (%1) it "
-                       "counts as converged.")
-                        .arg(number_text(solver::kConvergedSpeed, 2)));
-  for (CurvePlot* plot : {volume_, area_, motion_}) form.wide(plot);
-}
-
 void EvolutionFigures::attach() {
   dice_part_->setVisible(proxy() && proxy()->study().truth);
+  comparison_->forget();
+  show_distances();
   if (proxy()) return;
-  for (CurvePlot* plot : {volume_, area_, motion_}) plot->set_points({});
   for (QLabel* figure : {step_, dice_, pages_, bytes_, pace_}) figure->clear();
 }
 
-void EvolutionFigures::show_curves() {
-  const document::Curve::Points& curve = *proxy()->state().curve.points();
-  const auto show = [&curve](CurvePlot* plot, double document::CurvePoint::*quantity) {
-    std::vector<QPointF> points;
-    points.reserve(curve.size());
-    for (const document::CurvePoint& point : curve)
-      points.emplace_back(static_cast<double>(point.step), point.*quantity);
-    plot->set_points(std::move(points));
-  };
-  show(volume_, &document::CurvePoint::volume_ml);
-  show(area_, &document::CurvePoint::surface_mm2);
-  show(motion_, &document::CurvePoint::surface_speed);
+void EvolutionFigures::show_distances() {
+  const auto distance = comparison_->distance();
+  const auto text = [](double mm) { return number_text(mm, 2) + QChar(QChar::Nbsp) + tr("mm"); };
+  mean_distance_->setText(distance ? text(distance->mean_mm) : kNothing);
+  most_distance_->setText(distance ? text(distance->most_mm) : kNothing);
 }
 
 void EvolutionFigures::refresh() {
   const engine::CaseState& state = proxy()->state();
-  show_curves();
   step_->setText(count_text(state.step));
-  dice_->setText(state.begun && state.dice ? number_text(*state.dice, 3) : QStringLiteral("–"));
+  dice_->setText(state.begun && state.dice ? number_text(*state.dice, 3) : kNothing);
+  if (const auto& truth = proxy()->study().truth; truth && state.begun && state.phi)
+    comparison_->ask(truth, state.phi);
   truth_->setChecked(proxy()->display().settings().truth);
+  truth_error_->setChecked(proxy()->display().settings().truth_error);
   const double measured = state.playing ? state.steps_per_second : state.solver_steps_per_second;
   const double pace = document::has_surface(state.outcome) ? measured : 0.0;
-  pace_->setText(pace > 0.0 ? short_text(pace) : QStringLiteral("–"));
+  pace_->setText(pace > 0.0 ? short_text(pace) : kNothing);
   pages_->setText(tr("%1, %2 at rest")
                       .arg(count_text(state.memory.resident_pages), count_text(state.memory.quiet_pages)));
   bytes_->setText(number_locale().formattedDataSize(state.memory.state_bytes, 1, QLocale::DataSizeSIFormat));

@@ -1,4 +1,4 @@
-// The figures of the evolution: curves over its steps, sizes, and the agreement with a known answer.
+// The figures of the evolution: steps, sizes, and the agreement with a known answer.
 #pragma once
 
 #include "ui/panels/case_widget.h"
@@ -6,9 +6,12 @@
 class QCheckBox;
 class QLabel;
 
+namespace tidemark::engine {
+class TruthComparison;
+}
+
 namespace tidemark::ui {
 
-class CurvePlot;
 class Form;
 
 class EvolutionFigures : public CaseWidget {
@@ -21,17 +24,17 @@ class EvolutionFigures : public CaseWidget {
   void refresh() override;
 
  private:
-  void add_curves(Form& form);
   void add_details(Form& form);
-  void show_curves();
+  void show_distances();
 
-  CurvePlot* volume_;
-  CurvePlot* area_;
-  CurvePlot* motion_;
   QLabel* step_;
   QWidget* dice_part_;  // for phantoms
   QLabel* dice_;
+  QLabel* mean_distance_;
+  QLabel* most_distance_;
+  engine::TruthComparison* comparison_;
   QCheckBox* truth_;
+  QCheckBox* truth_error_;
   QLabel* pages_;
   QLabel* bytes_;
   QLabel* pace_;

@@ -2,9 +2,12 @@
 
 #include "ui/panels/balance_controls.h"
 #include "ui/panels/change_controls.h"
+#include "ui/panels/evolution_curves.h"
 #include "ui/panels/evolution_figures.h"
 #include "ui/panels/example_controls.h"
 #include "ui/panels/function_controls.h"
+#include "ui/panels/gradient_figures.h"
+#include "ui/panels/profile_controls.h"
 #include "ui/panels/speed_controls.h"
 #include "ui/panels/speed_details.h"
 
@@ -18,8 +21,11 @@ LevelSetPanel::LevelSetPanel(QWidget* parent)
   add(new ExampleControls);
   add(new SpeedControls);
   add(new BalanceControls);
+  add(new ProfileControls);
   add(new SpeedDetails);
   add(new EvolutionFigures);
+  add(new EvolutionCurves);
+  add(new GradientFigures);
 }
 
 }  // namespace tidemark::ui

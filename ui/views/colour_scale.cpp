@@ -16,6 +16,7 @@ constexpr double kHeight = 8.0;
 constexpr double kLine = 18.0;
 constexpr double kMargin = 8.0;
 constexpr double kScaleBar = 34.0;  // which lies below
+const QList<QColor> kDiverging{QColor(33, 92, 171), QColor(242, 242, 242), QColor(204, 102, 13)};
 
 QString text(const char* source) {
   return QCoreApplication::translate("View", source);
@@ -30,10 +31,16 @@ ColourScale scale_of_doubt() {
           text(QT_TRANSLATE_NOOP("View", "undecided"))};
 }
 
+ColourScale scale_of_truth_error(double range_mm) {
+  const QString far = general_text(range_mm, 3);
+  return {kDiverging, text(QT_TRANSLATE_NOOP("View", "From the truth")),
+          QCoreApplication::translate("View", "−%1 mm too little").arg(far),
+          QCoreApplication::translate("View", "too much +%1 mm").arg(far)};
+}
+
 ColourScale scale_of_change(double within_mm) {
   const QString far = general_text(within_mm, 3);
-  return {{QColor(33, 92, 171), QColor(242, 242, 242), QColor(204, 102, 13)},
-          text(QT_TRANSLATE_NOOP("View", "Change")),
+  return {kDiverging, text(QT_TRANSLATE_NOOP("View", "Change")),
           QCoreApplication::translate("View", "−%1 mm removed").arg(far),
           QCoreApplication::translate("View", "added +%1 mm").arg(far)};
 }

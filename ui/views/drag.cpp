@@ -91,6 +91,8 @@ std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer&
       return std::make_unique<DistanceDrag>(std::move(view), pressed);
     case engine::Tool::measure_angle:
       return std::make_unique<AngleDrag>(std::move(view), pressed);
+    case engine::Tool::profile:
+      return view.slab ? std::make_unique<ProfileDrag>(std::move(view), pressed) : nullptr;
     case engine::Tool::examples:
       return view.slab ? std::make_unique<ExampleDrag>(std::move(view), pressed) : nullptr;
     case engine::Tool::wall:

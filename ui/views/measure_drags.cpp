@@ -56,4 +56,19 @@ void AngleDrag::release() {
   if (leg_mm < 2.0 * view().mm_per_pixel) remove_last(display());
 }
 
+ProfileDrag::ProfileDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)) {
+  line_.points_mm = {*pressed.patient_mm, *pressed.patient_mm};
+}
+
+void ProfileDrag::move(const Pointer& pointer) {
+  if (!pointer.patient_mm) return;
+  line_.points_mm[1] = *pointer.patient_mm;
+  display().change([&](engine::DisplaySettings& settings) { settings.profile = line_; });
+}
+
+void ProfileDrag::release() {
+  if (line_.value() >= 2.0 * view().mm_per_pixel) return;
+  display().change([](engine::DisplaySettings& settings) { settings.profile.reset(); });
+}
+
 }  // namespace tidemark::ui

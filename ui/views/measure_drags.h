@@ -1,4 +1,4 @@
-// Drags that measure distances and angles.
+// Drags that measure distances and angles, and draw lines.
 #pragma once
 
 #include "ui/views/drag.h"
@@ -25,6 +25,17 @@ class AngleDrag : public Drag {
 
  private:
   bool second_leg_ = false;
+};
+
+// The line along which values are plotted. A click takes it away.
+class ProfileDrag : public Drag {
+ public:
+  ProfileDrag(DragView view, const Pointer& pressed);
+  void move(const Pointer& pointer) override;
+  void release() override;
+
+ private:
+  engine::Measurement line_;
 };
 
 }  // namespace tidemark::ui

@@ -119,6 +119,30 @@ void paint_measurements(QPainter& painter, const std::vector<engine::Measurement
   }
 }
 
+void paint_profile(QPainter& painter, const engine::Measurement& line, const SliceScreen& screen,
+                   double reach_mm) {
+  constexpr double kArrow = 9.0;
+  const QColor colour(255, 176, 96);
+  for (const glm::dvec3& point : line.points_mm) {
+    if (std::abs(screen.distance_mm(point)) > reach_mm) return;
+  }
+  const QLineF way(screen.position_of(line.points_mm[0]), screen.position_of(line.points_mm[1]));
+  if (way.length() < 1.0) return;
+  paint_line(painter, {way.p1(), way.p2()}, colour);
+  QLineF side = QLineF(way.p2(), way.p1());
+  side.setLength(std::min(kArrow, way.length()));
+  const double angle = side.angle();
+  QPolygonF head;
+  side.setAngle(angle + 25.0);
+  head << side.p2() << way.p2();
+  side.setAngle(angle - 25.0);
+  head << side.p2();
+  paint_line(painter, head, colour);
+  painter.setPen(QPen(colour, 1.5));
+  painter.setBrush(kVeil);
+  painter.drawEllipse(way.p1(), 3.5, 3.5);
+}
+
 void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines) {
   constexpr double kMiddle = 24.0;  // room for the letter of the patient's side
   // At the bottom there is only the scale bar to the right.

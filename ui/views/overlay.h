@@ -41,6 +41,9 @@ void paint_crosshair(QPainter& painter, QSizeF size, QPointF at);
 void paint_measurements(QPainter& painter, const std::vector<engine::Measurement>& measurements,
                         const SliceScreen& screen, double reach_mm);
 QString text_of(const engine::Measurement& measurement);
+// The line along which values are plotted, with a ring at its beginning and an arrow at its end; likewise.
+void paint_profile(QPainter& painter, const engine::Measurement& line, const SliceScreen& screen,
+                   double reach_mm);
 
 // Lines in a corner, those at the top cut short where they would meet the ones of the other corner.
 void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines);

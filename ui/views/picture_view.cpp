@@ -9,6 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include "engine/case_balance.h"
+#include "engine/truth_error.h"
+#include "solver/speed/motion_limit.h"
 #include "ui/views/force_arrows.h"
 #include "ui/views/overlay.h"
 #include "ui/views/picture_surface.h"
@@ -37,6 +39,7 @@ Qt::CursorShape cursor_for(engine::Tool tool) {
     case engine::Tool::probe_transfer:
     case engine::Tool::measure_distance:
     case engine::Tool::measure_angle:
+    case engine::Tool::profile:
     case engine::Tool::examples:
     case engine::Tool::wall:
       return Qt::CrossCursor;
@@ -47,6 +50,17 @@ Qt::CursorShape cursor_for(engine::Tool tool) {
 }
 
 }  // namespace
+
+bool PictureView::shows_truth_error() const {
+  return settings().truth_error && proxy().study().truth;
+}
+
+std::optional<ColourScale> PictureView::scale_of_distances() const {
+  if (shows_truth_error())
+    return scale_of_truth_error(engine::truth_error_range_mm(proxy().volume().geometry));
+  const auto& limit = proxy().state().limit;
+  return limit && settings().change ? std::optional(scale_of_change(limit->within_mm())) : std::nullopt;
+}
 
 PictureView::PictureView(engine::CaseProxy& proxy, QWidget* parent)
     : QWidget(parent), proxy_(proxy), feed_(proxy) {

@@ -8,6 +8,7 @@
 
 #include "engine/force_sampler.h"
 #include "engine/picture_feed.h"
+#include "ui/views/colour_scale.h"
 #include "ui/views/drag.h"
 
 namespace tidemark::ui {
@@ -62,6 +63,10 @@ class PictureView : public QWidget {
  protected:
   [[nodiscard]] engine::Display& display() const { return proxy_.display(); }
   [[nodiscard]] const engine::DisplaySettings& settings() const { return proxy_.display().settings(); }
+  // Whether colours say how far the surface is from the truth.
+  [[nodiscard]] bool shows_truth_error() const;
+  // Of colours that say how far the surface is from the truth, or from where it began; none: they do not.
+  [[nodiscard]] std::optional<ColourScale> scale_of_distances() const;
   [[nodiscard]] DragView drag_view();
 
   // Asks the engine for the view that is wanted now.

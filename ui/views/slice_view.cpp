@@ -4,8 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "solver/speed/motion_limit.h"
-#include "ui/views/colour_scale.h"
 #include "ui/views/mark_drags.h"
 #include "ui/views/overlay.h"
 #include "ui/widgets/number_text.h"
@@ -138,7 +136,7 @@ renderer::SliceView SliceViewWidget::slice() const {
   view.nearest = s.nearest;
   view.surface = s.outline;
   view.contours = s.contours;
-  view.change = s.change;
+  view.change = s.change || shows_truth_error();
   view.line_pixels = s.line_pixels * devicePixelRatioF();
   view.label_opacity = s.label_opacity;
   return view;
@@ -274,6 +272,8 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   paint_marks(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
   paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
+  if (settings().profile)
+    paint_profile(painter, *settings().profile, on_screen, 0.5 * place().thickness_mm + 1e-6);
   paint_orientation(painter, size(), o.right, o.up, proxy().study().oriented);
   paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
   paint_corners(painter);
@@ -284,8 +284,8 @@ void SliceViewWidget::paint_legend(QPainter& painter) const {
   const auto& agreement = display().agreement();
   if (content_ == renderer::SliceContent::source && agreement)
     return paint_colour_scale(painter, size(), scale_of_agreement(agreement->window.width));
-  if (content_ == renderer::SliceContent::source && settings().change && proxy().state().limit)
-    return paint_colour_scale(painter, size(), scale_of_change(proxy().state().limit->within_mm()));
+  if (const auto scale = scale_of_distances(); scale && content_ == renderer::SliceContent::source)
+    return paint_colour_scale(painter, size(), *scale);
   if (content_ != renderer::SliceContent::speed || settings().speed_term != renderer::SpeedTerm::doubt)
     return;
   const auto& speed = proxy().state().speed;

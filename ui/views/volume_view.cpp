@@ -8,8 +8,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "solver/speed/motion_limit.h"
-#include "ui/views/colour_scale.h"
 #include "ui/views/next_step.h"
 #include "ui/views/orientation_cube.h"
 #include "ui/views/overlay.h"
@@ -92,7 +90,7 @@ renderer::VolumeView VolumeViewWidget::view() const {
   view.surface = s.surface;
   view.surface_colour = s.surface_colour;
   view.colouring = s.colouring;
-  view.change = s.change;
+  view.change = s.change || shows_truth_error();
   view.region = s.region;
   view.label_opacity = s.label_opacity;
   view.lighting.occlusion = s.occlusion;
@@ -140,7 +138,8 @@ std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
     }
   }
   const engine::Tool tool = settings().tool;
-  const bool only_in_slices = tool == engine::Tool::window || tool == engine::Tool::examples;
+  const bool only_in_slices =
+      tool == engine::Tool::window || tool == engine::Tool::examples || tool == engine::Tool::profile;
   const bool turns = only_in_slices && !pressed.modifiers.testFlag(Qt::AltModifier);
   if (turns) return navigation_drag(pressed);
   if (!pressed.patient_mm && pressed.button != Qt::MiddleButton) {
@@ -262,8 +261,8 @@ void VolumeViewWidget::paint_overlay(QPainter& painter) {
   paint_scale_bar(painter, size(), mm_per_pixel());
   paint_study(painter);
   const bool is_coloured = settings().surface && settings().colouring == renderer::SurfaceColouring::plain;
-  if (const auto& limit = proxy().state().limit; limit && is_coloured && settings().change)
-    paint_colour_scale(painter, size(), scale_of_change(limit->within_mm()));
+  if (const auto scale = scale_of_distances(); scale && is_coloured)
+    paint_colour_scale(painter, size(), *scale);
   if (!settings().clip_on) return;
   const ClipHandles on_screen = handles();
   on_screen.paint(painter, on_screen.grip_at(mapFromGlobal(QCursor::pos())));

@@ -24,11 +24,16 @@ Disclosure::Disclosure(const QString& what, const QString& key, QWidget* parent)
   connect(button_, &QToolButton::toggled, this, [this](bool open) {
     button_->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
     content_->setVisible(open);
+    emit toggled(open);
   });
   connect(button_, &QToolButton::clicked, this, [key](bool open) { settings::details(key).set(open); });
   button_->setArrowType(Qt::RightArrow);
   content_->hide();
   set_open(settings::details(key).get());
+}
+
+void Disclosure::set_title(const QString& title) {
+  button_->setText(title);
 }
 
 void Disclosure::set_open(bool open) {

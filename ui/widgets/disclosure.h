@@ -13,10 +13,15 @@ class Disclosure : public QWidget {
   // remembered in the settings under `key`.
   Disclosure(const QString& what, const QString& key, QWidget* parent = nullptr);
 
+  // In place of "Details".
+  void set_title(const QString& title);
   // To be filled by a Form.
   [[nodiscard]] QWidget* content() const { return content_; }
   [[nodiscard]] bool is_open() const { return button_->isChecked(); }
   void set_open(bool open);  // not remembered
+
+ signals:
+  void toggled(bool open);
 
  private:
   QToolButton* button_;

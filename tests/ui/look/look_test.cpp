@@ -23,7 +23,7 @@ const QStringList kNames =
         "restart "
         "tool-window tool-crosshair tool-probe tool-probe-transfer tool-seed tool-paint tool-erase "
         "tool-distance "
-        "tool-angle tool-examples tool-wall tool-why clip-plane layout-single layout-one-three "
+        "tool-angle tool-examples tool-wall tool-why tool-profile clip-plane layout-single layout-one-three "
         "layout-two-two "
         "layout-paper view-slice-axial "
         "view-slice-coronal view-slice-sagittal view-oblique view-speed view-3d view-pages tile cascade tabs "
