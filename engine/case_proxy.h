@@ -31,10 +31,12 @@ struct Segments;
 namespace tidemark::engine {
 
 class CaseBalance;
+class CasePasses;
 class CaseRunner;
 class CaseSweep;
 class LockStep;
 class WeakReceiver;
+struct RecordedStep;
 
 // A case as a session file had it. One that was rescued is in no file that the user knows.
 struct RestoredCase {
@@ -60,11 +62,14 @@ class CaseProxy : public QObject {
   [[nodiscard]] const SourceSummary& summary() const { return study_->summary; }
   [[nodiscard]] const document::StudyOrigin& origin() const { return study_->origin; }
   [[nodiscard]] const LoadedStudy& study() const { return *study_; }
+  [[nodiscard]] const std::shared_ptr<const LoadedStudy>& shared_study() const { return study_; }
   [[nodiscard]] const QString& name() const { return study_->name; }
   [[nodiscard]] Display& display() { return display_; }
   [[nodiscard]] Engine& engine() { return engine_; }
   // Why the surface moves or rests at a place that the user has chosen.
   [[nodiscard]] CaseBalance& balance() { return *balance_; }
+  // What the passes of the stream executor make of a page.
+  [[nodiscard]] CasePasses& passes() { return *passes_; }
   // The parameters as last set here, before the engine has taken them: what sliders show.
   [[nodiscard]] const solver::Parameters& parameters() const { return wanted_parameters_; }
   // So is what drives the surface.
@@ -122,6 +127,9 @@ class CaseProxy : public QObject {
   void pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
             std::function<void(std::optional<renderer::Hit>)> answer);
 
+  // The next step of a virtual page; the answer comes as pick()'s does. Nothing is changed by it.
+  void record_step(std::int64_t page, std::function<void(const Result<RecordedStep>&)> answer);
+
   // The case as it is now, with the images of the display, for writing on another thread; the answer comes as
   // pick()'s does. An open change ends as an entry of the history.
   struct Snapshot {
@@ -173,6 +181,7 @@ class CaseProxy : public QObject {
   std::unique_ptr<CaseSweep> sweep_;
   CaseState state_;
   std::unique_ptr<CaseBalance> balance_;
+  std::unique_ptr<CasePasses> passes_;
   solver::Parameters wanted_parameters_;
   document::Drive wanted_drive_;
   std::int64_t steps_per_picture_ = 0;

@@ -19,6 +19,7 @@ struct LoadedStudy;
 namespace tidemark::ui {
 
 class CaseArea;
+class CaseComparison;
 class CaseExports;
 class FilmWriter;
 class CaseFiles;
@@ -104,6 +105,7 @@ class MainWindow : public QMainWindow {
   QStackedWidget* centre_ = nullptr;
   PanelDocks* panels_ = nullptr;
   CaseLinks* links_ = nullptr;
+  CaseComparison* comparison_ = nullptr;
   RecentStudies* recent_ = nullptr;
   StudyOpener* opener_ = nullptr;
   LoadingView* loading_ = nullptr;
