@@ -51,8 +51,7 @@ class LevelSet final : private OpenChange {
   // the next checkpoint, belong to it too.
   Status begin(const Start& start, const Progress& progress = {});
   Status paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture = 0);
-  // Another band W cannot be had in mid-run: the level set begins again, at its start. Fails
-  // (ErrorKind::usage) where the start is a field with a band of its own.
+  // Another band W cannot be had in mid-run: the level set begins again, at its start.
   Status set_parameters(const solver::Parameters& parameters, std::uint64_t gesture = 0);
   // Walls and anchors hold the surface at once. The speed function is the tent, if it is to be; else what
   // set_speed() gives is the one that belongs to it.
