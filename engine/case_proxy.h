@@ -181,7 +181,6 @@ class CaseProxy : public QObject {
   std::unique_ptr<CaseSweep> sweep_;
   CaseState state_;
   std::unique_ptr<CaseBalance> balance_;
-  std::unique_ptr<CasePasses> passes_;
   solver::Parameters wanted_parameters_;
   document::Drive wanted_drive_;
   std::int64_t steps_per_picture_ = 0;
@@ -189,6 +188,7 @@ class CaseProxy : public QObject {
   std::optional<document::LeakRule> leak_rule_ = document::LeakRule{};
   std::uint64_t edits_sent_ = 0;
   std::shared_ptr<std::atomic<std::uint64_t>> edits_done_ = std::make_shared<std::atomic<std::uint64_t>>(0);
+  std::unique_ptr<CasePasses> passes_;
 };
 
 }  // namespace tidemark::engine

@@ -13,7 +13,7 @@ namespace tidemark::ui {
 class PassCard : public QFrame {
   Q_OBJECT
  public:
-  static constexpr int kWidth = 296;  // pixels of the unscaled screen
+  static constexpr int kWidth = 288;  // pixels of the unscaled screen
 
   PassCard(const QString& title, const QString& figure, const QString& sentence, QWidget* parent = nullptr);
 

@@ -16,9 +16,9 @@ namespace {
 using solver::PassRecord;
 
 constexpr int kSide = PassRecord::kSide;
-constexpr int kLarge = 134;  // of pictures, pixels of the unscaled screen
-constexpr int kMiddle = 88;
-constexpr int kSmall = 64;
+constexpr int kLarge = 126;  // of pictures, pixels of the unscaled screen
+constexpr int kMiddle = 82;
+constexpr int kSmall = 60;
 constexpr float kNoTexel = std::numeric_limits<float>::quiet_NaN();
 
 bool is_voxel(const PassRecord& record, int x, int y) {
