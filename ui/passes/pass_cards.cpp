@@ -19,6 +19,7 @@ constexpr int kSide = PassRecord::kSide;
 constexpr int kLarge = 126;  // of pictures, pixels of the unscaled screen
 constexpr int kMiddle = 82;
 constexpr int kSmall = 60;
+constexpr int kBlocks = 40;
 constexpr float kNoTexel = std::numeric_limits<float>::quiet_NaN();
 
 bool is_voxel(const PassRecord& record, int x, int y) {
@@ -84,6 +85,7 @@ TexelPicture::Content blocks(const std::vector<glm::vec4>& buffer, int which) {
   content.columns = content.rows = PassRecord::kBlocks;
   for (const glm::vec4& block : buffer) content.values.push_back(block[which]);
   content.range = round_range(content.values) > 1e-6 ? round_range(content.values) : 1.0;
+  content.names_range = false;
   return content;
 }
 
@@ -193,8 +195,8 @@ void PassCards::add_message() {
       tr("The message"), tr("Fig. 8"),
       tr("Two buffers say where voxels differ; mipmaps reduce them to a texel a page, and that to "
          "one byte for the processor."));
-  across_[0] = add_row(*card, {face_name(0), face_name(1), face_name(2), face_name(3)}, kSmall / 2);
-  across_[1] = add_row(*card, {face_name(4), face_name(5), tr("not in"), tr("not out")}, kSmall / 2);
+  across_[0] = add_row(*card, {face_name(0), face_name(1), face_name(2), face_name(3)}, kBlocks);
+  across_[1] = add_row(*card, {face_name(4), face_name(5), tr("not in"), tr("not out")}, kBlocks);
   bits_ = new MessageBits;
   code_ = card->add_line();
   card->add(bits_);

@@ -110,7 +110,7 @@ QString PassesPanel::status() const {
   }
   if (!passes.problem().empty()) return QString::fromStdString(passes.problem());
   if (!passes.recorded()) return {};
-  return tr("Step %1 as the passes compute it, read back from their buffers.")
+  return tr("Step %1, read back from the buffers of the passes.")
       .arg(count_text(passes.recorded()->step + 1));
 }
 

@@ -43,7 +43,7 @@ TexelPicture::TexelPicture(const QString& name, int side, QWidget* parent)
 
 void TexelPicture::show_content(Content content) {
   content_ = std::move(content);
-  setAccessibleDescription(caption());
+  setAccessibleDescription(range_text());
   update();
 }
 
@@ -52,7 +52,8 @@ void TexelPicture::clear() {
 }
 
 QSize TexelPicture::sizeHint() const {
-  return {side_, side_ + QFontMetrics(small(font())).height() + kSpaceTight};
+  const int lines = is_narrow() ? 2 : 1;
+  return {side_, side_ + lines * QFontMetrics(small(font())).height() + kSpaceTight};
 }
 
 QRect TexelPicture::cell(int x, int y) const {
@@ -73,9 +74,9 @@ QColor TexelPicture::colour_of(float value) const {
   return mixed(palette().color(QPalette::Base), value < 0.0F ? kNegativeColour : kPositiveColour, share);
 }
 
-QString TexelPicture::caption() const {
-  if (content_.values.empty() || content_.is_of_substreams) return name_;
-  return QStringLiteral("%1  ±%2").arg(name_, short_text(content_.range, 1));
+QString TexelPicture::range_text() const {
+  if (content_.values.empty() || content_.is_of_substreams || !content_.names_range) return {};
+  return QStringLiteral("±") + short_text(content_.range, 2);
 }
 
 void TexelPicture::paintEvent(QPaintEvent* /*event*/) {
@@ -102,9 +103,10 @@ void TexelPicture::paintEvent(QPaintEvent* /*event*/) {
   }
   painter.setFont(small(font()));
   painter.setPen(palette().color(QPalette::WindowText));
-  const QRect below(0, side_, side_, height() - side_);
-  painter.drawText(below, Qt::AlignHCenter | Qt::AlignVCenter,
-                   painter.fontMetrics().elidedText(caption(), Qt::ElideRight, side_));
+  const QRect below(0, side_ + kSpaceTight / 2, side_, height() - side_);
+  const QString range = range_text();
+  const QString text = range.isEmpty() ? name_ : name_ + (is_narrow() ? "\n" : "  ") + range;
+  painter.drawText(below, Qt::AlignHCenter | Qt::AlignTop, text);
 }
 
 void TexelPicture::paint_zero_line(QPainter& painter) const {

@@ -15,7 +15,8 @@ class TexelPicture : public QWidget {
   struct Content {
     int columns = 0;
     int rows = 0;
-    std::vector<float> values;      // x fastest; not a number: no texel
+    std::vector<float> values;  // x fastest; not a number: no texel
+    bool names_range = true;
     double range = 1.0;             // of the colours: -range to range
     bool is_of_substreams = false;  // values are places in kSubstreamColours
     int border = 0;                 // texels of the neighbours on each side
@@ -45,7 +46,8 @@ class TexelPicture : public QWidget {
   [[nodiscard]] QColor colour_of(float value) const;
   [[nodiscard]] bool is_border(int x, int y) const;
   void paint_zero_line(QPainter& painter) const;
-  [[nodiscard]] QString caption() const;
+  [[nodiscard]] QString range_text() const;
+  [[nodiscard]] bool is_narrow() const { return side_ < 80; }  // its range stands below its name
 
   QString name_;
   int side_;
