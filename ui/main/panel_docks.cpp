@@ -24,7 +24,7 @@ namespace tidemark::ui {
 namespace {
 
 constexpr int kWidth = 320;  // logical pixels
-constexpr QSize kPassesWindow{970, 690};
+constexpr QSize kPassesWindow{970, 730};
 constexpr int kStateVersion = 2;
 constexpr int kStateWithoutHistory = 1;       // of arrangements from before there was that panel
 constexpr const char* kInFront = "in_front";  // property of a panel

@@ -16,14 +16,15 @@ QString tr(const char* text) {
 }
 
 Text number(const char* name, double solver::Parameters::*value) {
-  return [=](const solver::Parameters& parameters) { return tr(name).arg(short_text(parameters.*value)); };
+  return
+      [=](const solver::Parameters& parameters) { return tr(name).arg(general_text(parameters.*value, 4)); };
 }
 
 // Of what is unset until the user sets it.
 Text number(const char* name, const char* unset, std::optional<double> solver::Parameters::*value) {
   return [=](const solver::Parameters& parameters) {
     const auto& set = parameters.*value;
-    return set ? tr(name).arg(short_text(*set)) : tr(unset);
+    return set ? tr(name).arg(general_text(*set, 4)) : tr(unset);
   };
 }
 

@@ -29,7 +29,7 @@ class PageMap : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  static constexpr int kHeight = 108;
+  static constexpr int kHeight = 92;
 
   QString name_;
   Content content_;

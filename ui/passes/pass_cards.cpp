@@ -17,9 +17,11 @@ using solver::PassRecord;
 
 constexpr int kSide = PassRecord::kSide;
 constexpr int kLarge = 126;  // of pictures, pixels of the unscaled screen
+constexpr int kSlice = 96;
 constexpr int kMiddle = 82;
-constexpr int kSmall = 60;
+constexpr int kSmall = 50;
 constexpr int kBlocks = 40;
+constexpr int kTitle = 48;  // of a row
 constexpr float kNoTexel = std::numeric_limits<float>::quiet_NaN();
 
 bool is_voxel(const PassRecord& record, int x, int y) {
@@ -100,10 +102,17 @@ PassCards::PassCards(QWidget* parent) : CardColumns(parent) {
   add_message();
 }
 
-QList<TexelPicture*> PassCards::add_row(PassCard& card, const QStringList& names, int side) {
+QList<TexelPicture*> PassCards::add_row(PassCard& card, const QStringList& names, int side,
+                                        const QString& title, const QString& tip) {
   QList<TexelPicture*> pictures;
   auto* row = new QHBoxLayout;
   row->setSpacing(kSpace - 2);
+  if (!title.isEmpty()) {
+    auto* label = new QLabel(title);
+    label->setFixedWidth(kTitle);
+    label->setToolTip(tip);
+    row->addWidget(label);
+  }
   for (const QString& name : names) {
     pictures << new TexelPicture(name, side);
     row->addWidget(pictures.back());
@@ -141,7 +150,7 @@ void PassCards::add_substreams() {
   card->add_line()->setText(
       tr("Grey: the interior reads from 3 pages. Edges read from 6, corners from 12. Pale: texels of the "
          "neighbours."));
-  slices_ = add_row(*card, {tr("φ one slice below"), tr("φ one slice above")}, kLarge);
+  slices_ = add_row(*card, {tr("φ one slice below"), tr("φ one slice above")}, kSlice);
   add(card);
 }
 
@@ -162,13 +171,8 @@ void PassCards::add_derivatives() {
                              "earlier, where motion is "
                              "measured in this step."),
                           tr("The pure second differences."), tr("Four times the mixed second differences.")};
-  for (std::size_t i = 0; i < differences_.size(); ++i) {
-    auto* title = new QLabel(titles[i]);
-    title->setToolTip(tips[i]);
-    title->setForegroundRole(QPalette::PlaceholderText);
-    card->add(title);
-    differences_[i] = add_row(*card, names[i], kSmall);
-  }
+  for (std::size_t i = 0; i < differences_.size(); ++i)
+    differences_[i] = add_row(*card, names[i], kSmall, titles[i], tips[i]);
   add(card);
 }
 

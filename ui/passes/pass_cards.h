@@ -29,7 +29,8 @@ class PassCards : public CardColumns {
   void add_speeds();
   void add_update();
   void add_message();
-  QList<TexelPicture*> add_row(PassCard& card, const QStringList& names, int side);
+  QList<TexelPicture*> add_row(PassCard& card, const QStringList& names, int side, const QString& title = {},
+                               const QString& tip = {});
 
   void show_address(const solver::PassRecord& record);
   void show_phi(const solver::PassRecord& record);

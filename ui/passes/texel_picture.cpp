@@ -15,6 +15,8 @@
 namespace tidemark::ui {
 namespace {
 
+constexpr double kNothing = 1e-6;  // what is smaller is rounding
+
 QFont small(QFont font) {
   font.setPointSizeF(0.85 * font.pointSizeF());
   return font;
@@ -27,7 +29,7 @@ double round_range(const std::vector<float>& values) {
   for (const float value : values) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(double(value)));
   }
-  if (largest <= 1e-6) return 1e-6;
+  if (largest <= kNothing) return kNothing;
   const double power = std::pow(10.0, std::floor(std::log10(largest)));
   for (const double digit : {1.0, 2.0, 5.0}) {
     if (largest <= digit * power * (1.0 + 1e-6)) return digit * power;
@@ -76,7 +78,8 @@ QColor TexelPicture::colour_of(float value) const {
 
 QString TexelPicture::range_text() const {
   if (content_.values.empty() || content_.is_of_substreams || !content_.names_range) return {};
-  return QStringLiteral("±") + short_text(content_.range, 2);
+  return content_.range > kNothing ? QStringLiteral("±") + short_text(content_.range, 2)
+                                   : QStringLiteral("0");
 }
 
 void TexelPicture::paintEvent(QPaintEvent* /*event*/) {
