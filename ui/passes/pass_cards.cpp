@@ -147,10 +147,8 @@ void PassCards::add_substreams() {
   substreams_ = pictures[1];
   substreams_->setToolTip(
       tr("Interior, four edges, four corners: a quad, four lines and four points a page."));
-  card->add_line()->setText(
-      tr("Grey: the interior reads from 3 pages. Edges read from 6, corners from 12. Pale: texels of the "
-         "neighbours."));
-  slices_ = add_row(*card, {tr("φ one slice below"), tr("φ one slice above")}, kSlice);
+  card->add_line()->setText(tr("The interior (grey) reads from 3 pages, an edge from 6, a corner from 12."));
+  slices_ = add_row(*card, {tr("slice below"), tr("slice above")}, kSlice);
   add(card);
 }
 
@@ -195,12 +193,14 @@ void PassCards::add_update() {
 }
 
 void PassCards::add_message() {
-  auto* card = new PassCard(
-      tr("The message"), tr("Fig. 8"),
-      tr("Two buffers say where voxels differ; mipmaps reduce them to a texel a page, and that to "
-         "one byte for the processor."));
-  across_[0] = add_row(*card, {face_name(0), face_name(1), face_name(2), face_name(3)}, kBlocks);
-  across_[1] = add_row(*card, {face_name(4), face_name(5), tr("not in"), tr("not out")}, kBlocks);
+  auto* card = new PassCard(tr("The message"), tr("Fig. 8"),
+                            tr("A: two buffers say where voxels differ. B: mipmaps reduce them to a texel a "
+                               "page. C: that becomes a byte, D: on which the "
+                               "processor acts."));
+  across_[0] =
+      add_row(*card, {face_name(0), face_name(1), face_name(2), face_name(3)}, kBlocks, tr("In slice"));
+  across_[1] =
+      add_row(*card, {face_name(4), face_name(5), tr("not in"), tr("not out")}, kBlocks, tr("Across"));
   bits_ = new MessageBits;
   code_ = card->add_line();
   card->add(bits_);
@@ -287,8 +287,8 @@ void PassCards::show_message(const PassRecord& record) {
     across_[1][i]->show_content(blocks(record.across_slices, i));
   }
   bits_->show_message(record.message);
-  code_->setText(tr("The byte is %1:").arg(record.message.code));
-  decision_->setText(decision_text(record));
+  code_->setText(tr("C: the byte is %1.").arg(record.message.code));
+  decision_->setText(tr("D: %1").arg(decision_text(record)));
 }
 
 }  // namespace tidemark::ui
