@@ -1,5 +1,5 @@
-// What the passes of the stream executor make of one page in a step, from phi to the page's message (paper
-// sections 3.3, 4.3 and 4.4, figures 5 to 8).
+// The record of a page's step: all that the passes of the stream executor make of it, from phi to its message
+// (paper sections 3.3, 4.3 and 4.4, figures 5 to 8).
 #pragma once
 
 #include <array>

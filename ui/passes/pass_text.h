@@ -1,4 +1,4 @@
-// What a page's record says, in sentences.
+// Sentences about a page's record.
 #pragma once
 
 #include <QString>
