@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "imaging/filters/filters.h"
+#include "solver/model.h"
 #include "solver/speed/motion_limit.h"
 #include "solver/speed/speed_registry.h"
 
@@ -54,10 +55,10 @@ RecipeExecutor ExecutorSetup::description() const {
   return {std::string(executor_->name()), executor_->memory().page_shape, options_.skip_quiet_pages};
 }
 
-Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, solver::ExecutorKind kind,
-                             const solver::ExecutorOptions& options, const solver::Field& phi,
-                             std::shared_ptr<const solver::SpeedFunction> speed) {
-  auto made = solver::make_executor(kind, source, executor_->parameters(), options);
+Status ExecutorSetup::remake(std::shared_ptr<const Volume> source, const solver::Parameters& parameters,
+                             solver::ExecutorKind kind, const solver::ExecutorOptions& options,
+                             const solver::Field& phi, std::shared_ptr<const solver::SpeedFunction> speed) {
+  auto made = solver::make_executor(kind, source, parameters, options);
   if (!made) return pass_on(made);
   if (speed != nullptr) {
     TIDEMARK_TRY((*made)->set_speed(std::move(speed)));
@@ -91,7 +92,8 @@ Status ExecutorSetup::set_source(std::shared_ptr<const Volume> source, double sm
   if (!phi) return tl::unexpected<Error>(phi.error());
   auto fitting = solver::with_tents(std::move(speed), source, executor_->parameters());
   if (!fitting) return pass_on(fitting);
-  TIDEMARK_TRY(remake(std::move(source), kind_, options_, *phi, std::move(*fitting)));
+  TIDEMARK_TRY(
+      remake(std::move(source), executor_->parameters(), kind_, options_, *phi, std::move(*fitting)));
   smoothed_mm_ = smoothed_mm;
   return {};
 }
@@ -104,7 +106,7 @@ Status ExecutorSetup::set_conditions(double smoothed_mm, const solver::Parameter
     TIDEMARK_TRY(set_source(std::move(*source), smoothed_mm, nullptr));
   }
   if (parameters != executor_->parameters()) {
-    TIDEMARK_TRY(set_parameters(parameters));
+    TIDEMARK_TRY(prepare(parameters));
   }
   const Drive wanted = value_of(drive);
   const Drive present = value_of(drive_);
@@ -115,7 +117,7 @@ Status ExecutorSetup::set_conditions(double smoothed_mm, const solver::Parameter
 
 Status ExecutorSetup::change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,
                                       const solver::Field& phi) {
-  return remake(source_, kind, options, phi, executor_->speed());
+  return remake(source_, executor_->parameters(), kind, options, phi, executor_->speed());
 }
 
 Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive, const Progress& progress) {
@@ -178,6 +180,20 @@ Status ExecutorSetup::set_parameters(const solver::Parameters& parameters) {
   if (!speed) return pass_on(speed);
   TIDEMARK_TRY(executor_->set_parameters(parameters));
   return executor_->set_speed(std::move(*speed));
+}
+
+bool ExecutorSetup::has_band_of(const solver::Parameters& parameters) const {
+  const double wanted = parameters.band.value_or(solver::default_band(source_->geometry));
+  return static_cast<float>(wanted) == static_cast<float>(executor_->band());
+}
+
+Status ExecutorSetup::prepare(const solver::Parameters& parameters) {
+  if (has_band_of(parameters)) return set_parameters(parameters);
+  auto speed = solver::with_tents(executor_->speed(), source_, parameters);
+  if (!speed) return pass_on(speed);
+  const double band = static_cast<float>(parameters.band.value_or(solver::default_band(source_->geometry)));
+  const auto outside = solver::Field::empty(source_->geometry, band, executor_->memory().page_shape);
+  return remake(source_, parameters, kind_, options_, outside, std::move(*speed));
 }
 
 Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& progress) {

@@ -36,6 +36,9 @@ class ExecutorSetup {
   // present parameters. Null, of another setting than the tent: it lacks its function then.
   Status set_drive(std::shared_ptr<const Drive> drive, std::shared_ptr<const solver::SpeedFunction> speed);
   Status set_parameters(const solver::Parameters& parameters);
+  // The parameters of another start: with another band, phi is outside everywhere until it is restored.
+  Status prepare(const solver::Parameters& parameters);
+  [[nodiscard]] bool has_band_of(const solver::Parameters& parameters) const;
   [[nodiscard]] const std::shared_ptr<const Drive>& drive() const { return drive_; }
   // Whether the drive's function is missing: the tent is in its place, and no step may be computed before
   // make_missing_speed(), which fails as set_drive() does, or another set_drive().
@@ -75,8 +78,8 @@ class ExecutorSetup {
   ExecutorSetup() = default;
   Status hold(std::shared_ptr<const solver::Constraints> marks,
               std::shared_ptr<const solver::MotionLimit> limit);
-  Status remake(std::shared_ptr<const Volume> source, solver::ExecutorKind kind,
-                const solver::ExecutorOptions& options, const solver::Field& phi,
+  Status remake(std::shared_ptr<const Volume> source, const solver::Parameters& parameters,
+                solver::ExecutorKind kind, const solver::ExecutorOptions& options, const solver::Field& phi,
                 std::shared_ptr<const solver::SpeedFunction> speed);
 
   std::shared_ptr<const Volume> volume_;

@@ -50,6 +50,8 @@ void FieldDelta::keep(const solver::Field& field, std::int64_t page, Side& side)
 FieldDelta::FieldDelta(const solver::Field& before, const solver::Field& after) : layout_(after.layout) {
   std::optional<solver::Field> made;
   const solver::Field& from = with_pages(before, layout_, made);
+  before_.band = before.band;
+  after_.band = after.band;
   for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
     if (same_page(from, after, page)) continue;
     pages_.push_back(page);
@@ -68,7 +70,7 @@ solver::Field FieldDelta::replaced(const solver::Field& field, const Side& side)
   std::optional<solver::Field> made;
   const solver::Field& from = with_pages(field, layout_, made);
   const std::int64_t voxels = layout_.voxels_per_page();
-  solver::Field result = solver::Field::empty(from.geometry, from.band, layout_.page_shape());
+  solver::Field result = solver::Field::empty(from.geometry, side.band, layout_.page_shape());
   result.pages.reserve(from.pages.size());
   std::size_t next = 0;  // of the changed pages
   for (std::int64_t page = 0; page < layout_.page_count(); ++page) {

@@ -13,7 +13,7 @@ namespace tidemark::document {
 
 class FieldDelta {
  public:
-  // The fields must have the same grid and band. Their pages may differ in shape; the delta has the second's.
+  // The fields must have the same grid. Their pages may differ in shape; the delta has the second's.
   FieldDelta(const solver::Field& before, const solver::Field& after);
 
   [[nodiscard]] bool empty() const { return pages_.empty(); }
@@ -25,6 +25,7 @@ class FieldDelta {
 
  private:
   struct Side {
+    double band = 0.0;
     std::vector<std::int32_t> table;  // for each changed page: which of `values`, or a constant of Field's
     std::vector<float> values;
   };

@@ -202,6 +202,7 @@ Status LevelSet::paint(const solver::Sphere& sphere, solver::Brush brush, std::u
 Status LevelSet::set_parameters(const solver::Parameters& parameters, std::uint64_t gesture) {
   TIDEMARK_TRY(end_other_change(gesture));
   if (parameters == this->parameters()) return {};
+  if (!setup_.has_band_of(parameters)) return begin_again_with(parameters);
   TIDEMARK_TRY(setup_.set_parameters(parameters));
   begin_change(ChangeKind::parameters, gesture, known_);
   if (begun()) {
@@ -348,13 +349,18 @@ Result<LevelSet::Point> LevelSet::start_point() {
     start_ = known_.start = std::make_shared<const solver::Field>(std::move(*phi));
   }
   Point point{recipe_.up_to(0), start_, start_, {}, drive_};
-  std::erase_if(point.recipe.events,
-                [](const RecipeEvent& event) { return !std::holds_alternative<PaintEvent>(event.what); });
-  point.recipe.parameters = parameters();
-  point.recipe.drive = setup_.drive();
-  if (const double smoothed = smoothed_mm(); smoothed != point.recipe.smoothed_mm)
-    point.recipe.events.push_back({0, SmoothEvent{smoothed}});
+  settle_start(point.recipe, parameters());
   return point;
+}
+
+// The recipe of a start becomes that of another run: with its paint, and the present conditions.
+void LevelSet::settle_start(Recipe& start, const solver::Parameters& parameters) const {
+  std::erase_if(start.events,
+                [](const RecipeEvent& event) { return !std::holds_alternative<PaintEvent>(event.what); });
+  start.parameters = parameters;
+  start.drive = setup_.drive();
+  if (const double smoothed = smoothed_mm(); smoothed != start.smoothed_mm)
+    start.events.push_back({0, SmoothEvent{smoothed}});
 }
 
 Status LevelSet::restart() {

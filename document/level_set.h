@@ -51,6 +51,7 @@ class LevelSet final : private OpenChange {
   // the next checkpoint, belong to it too.
   Status begin(const Start& start, const Progress& progress = {});
   Status paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture = 0);
+  // Another band W cannot be had in mid-run: the level set begins again, at its start.
   Status set_parameters(const solver::Parameters& parameters, std::uint64_t gesture = 0);
   // Walls and anchors hold the surface at once. The speed function is the tent, if it is to be; else what
   // set_speed() gives is the one that belongs to it.
@@ -165,6 +166,9 @@ class LevelSet final : private OpenChange {
   Status go_to(Point point);
   Status prepare_start();
   Result<Point> start_point();
+  void settle_start(Recipe& start, const solver::Parameters& parameters) const;
+  Status begin_again_with(const solver::Parameters& parameters);
+  Result<solver::Field> start_with(const solver::Parameters& parameters);
   void take_drive_of_recipe();
   Status compute_again(std::int64_t target, const Progress& progress);
   Status keep(Status computed, Recipe recipe, ChangeKind kind, const Point& before);

@@ -60,6 +60,7 @@ SavedHistory for_file(const SavedHistory& history, const solver::Field& present)
   std::size_t events = 0;
   for (const Visit& visit : outwards(history)) {
     SavedState& state = whole.states[visit.state];
+    if (visit.state != visit.from && !kept[visit.from]) continue;
     events += state.recipe.events.size();
     if (events > SavedHistory::kMostEvents || whole.phi.size() == SavedHistory::kMostStates ||
         whole.phi.bytes() > kMostBytes)
@@ -72,6 +73,7 @@ SavedHistory for_file(const SavedHistory& history, const solver::Field& present)
       solver::Field phi = whole.phi.field(near);
       phi = state.parent == visit.from ? state.from_parent->after(std::move(phi))
                                        : whole.states[visit.from].from_parent->before(std::move(phi));
+      if (phi.band != present.band) continue;
       whole.phi.add(phi, near);
     }
     kept[visit.state] = true;

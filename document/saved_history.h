@@ -46,7 +46,8 @@ struct Visit {
 [[nodiscard]] SavedHistory part_of(const SavedHistory& history, const std::vector<bool>& kept);
 
 // With phi of all states, of which the present one's is given. More states than a session file has room for
-// are left out, the farthest from the present one first.
+// are left out, the farthest from the present one first; so are states with another band, and what lies
+// behind them.
 SavedHistory for_file(const SavedHistory& history, const solver::Field& present);
 
 }  // namespace tidemark::document

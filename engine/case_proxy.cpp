@@ -6,6 +6,7 @@
 #include "core/without_exceptions.h"
 #include "document/label_segments.h"
 #include "engine/case_balance.h"
+#include "engine/case_passes.h"
 #include "engine/case_runner.h"
 #include "engine/case_sweep.h"
 #include "engine/lock_step.h"
@@ -26,6 +27,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;
   balance_ = std::make_unique<CaseBalance>(*this);
+  passes_ = std::make_unique<CasePasses>(*this);
   CaseRunner::Receiver receiver;
   receiver.weak_receiver = weak_receiver_;
   receiver.state_arrived = [this](CaseState state) { take(std::move(state)); };
@@ -45,6 +47,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
 CaseProxy::~CaseProxy() {
   truth_error_.reset();
   balance_.reset();
+  passes_.reset();
   weak_receiver_->close();
   engine_.cancel(runner_.get());
   // Its objects die where they live.
@@ -166,7 +169,11 @@ void CaseProxy::set_parameters(const solver::Parameters& parameters, std::uint64
   if (parameters == wanted_parameters_) return;
   wanted_parameters_ = parameters;
   post([parameters, gesture](CaseRunner& runner, const Progress&) {
-    return runner.report_change(runner.document().level_set().set_parameters(parameters, gesture));
+    document::LevelSet& level_set = runner.document().level_set();
+    if (parameters.band == level_set.parameters().band)
+      return runner.report_change(level_set.set_parameters(parameters, gesture));
+    runner.set_playing(false);
+    return runner.report_edit(level_set.set_parameters(parameters, gesture));  // it begins again
   });
   emit state_changed();  // every view and panel shows the wish at once
 }
@@ -300,6 +307,20 @@ void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize siz
     const auto hit = runner.painter().pick(view, size, pixel, runner.document());
     if (!hit) return tl::unexpected<Error>(hit.error());
     weak_receiver->send([answer, found = *hit] { answer(found); });
+    return {};
+  });
+}
+
+void CaseProxy::record_step(std::int64_t page, std::function<void(const Result<RecordedStep>&)> answer) {
+  post([page, answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner& runner,
+                                                                          const Progress&) -> Status {
+    document::LevelSet& level_set = runner.document().level_set();
+    auto recorded = without_exceptions([&]() -> Result<RecordedStep> {
+      auto record = level_set.executor().record_step(page);
+      if (!record) return pass_on(record);
+      return RecordedStep{std::move(*record), level_set.step()};
+    });
+    weak_receiver->send([answer, recorded = std::move(recorded)] { answer(recorded); });
     return {};
   });
 }

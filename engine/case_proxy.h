@@ -31,11 +31,13 @@ struct Segments;
 namespace tidemark::engine {
 
 class CaseBalance;
+class CasePasses;
 class CaseRunner;
 class CaseSweep;
 class LockStep;
 class TruthError;
 class WeakReceiver;
+struct RecordedStep;
 
 // A case as a session file had it. One that was rescued is in no file that the user knows.
 struct RestoredCase {
@@ -61,11 +63,14 @@ class CaseProxy : public QObject {
   [[nodiscard]] const SourceSummary& summary() const { return study_->summary; }
   [[nodiscard]] const document::StudyOrigin& origin() const { return study_->origin; }
   [[nodiscard]] const LoadedStudy& study() const { return *study_; }
+  [[nodiscard]] const std::shared_ptr<const LoadedStudy>& shared_study() const { return study_; }
   [[nodiscard]] const QString& name() const { return study_->name; }
   [[nodiscard]] Display& display() { return display_; }
   [[nodiscard]] Engine& engine() { return engine_; }
   // Why the surface moves or rests at a place that the user has chosen.
   [[nodiscard]] CaseBalance& balance() { return *balance_; }
+  // What the passes of the stream executor make of a page.
+  [[nodiscard]] CasePasses& passes() { return *passes_; }
   // The parameters as last set here, before the engine has taken them: what sliders show.
   [[nodiscard]] const solver::Parameters& parameters() const { return wanted_parameters_; }
   // So is what drives the surface.
@@ -129,6 +134,9 @@ class CaseProxy : public QObject {
   void pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
             std::function<void(std::optional<renderer::Hit>)> answer);
 
+  // The next step of a virtual page; the answer comes as pick()'s does. Nothing is changed by it.
+  void record_step(std::int64_t page, std::function<void(const Result<RecordedStep>&)> answer);
+
   // The case as it is now, with the images of the display, for writing on another thread; the answer comes as
   // pick()'s does. An open change ends as an entry of the history.
   struct Snapshot {
@@ -188,6 +196,7 @@ class CaseProxy : public QObject {
   std::optional<document::LeakRule> leak_rule_ = document::LeakRule{};
   std::uint64_t edits_sent_ = 0;
   std::shared_ptr<std::atomic<std::uint64_t>> edits_done_ = std::make_shared<std::atomic<std::uint64_t>>(0);
+  std::unique_ptr<CasePasses> passes_;
 };
 
 }  // namespace tidemark::engine

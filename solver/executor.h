@@ -23,6 +23,7 @@ namespace tidemark::solver {
 
 struct PackedView;
 struct PageView;
+struct PassRecord;
 
 // The end of a run of steps.
 struct Advance {
@@ -113,6 +114,11 @@ class Executor {
   // Shows where phi lies in the processor's memory (solver/host/page_view.h). Returns false where it does not
   // lie there in pages.
   [[nodiscard]] virtual bool page_view(PageView& /*view*/) const { return false; }
+
+  // What the passes make of a virtual page in the next step, from phi to its message
+  // (solver/stream/pass_record.h). Nothing changes by it. Fails (ErrorKind::usage) when there is no such
+  // page, (ErrorKind::capability) where no passes are run, and as snapshot() does.
+  [[nodiscard]] virtual Result<PassRecord> record_step(std::int64_t page);
 
   // Checks the invariants of the executor's own tables, and of phi; the error says which one is broken.
   [[nodiscard]] virtual Status validate() const = 0;

@@ -2,8 +2,13 @@
 
 #include "core/stopwatch.h"
 #include "solver/speed/tent_speed.h"
+#include "solver/stream/pass_record.h"
 
 namespace tidemark::solver {
+
+Result<PassRecord> Executor::record_step(std::int64_t /*page*/) {
+  return fail(ErrorKind::capability, "the executor {} runs no passes that could be recorded", name());
+}
 
 ExecutorBase::ExecutorBase(std::shared_ptr<const Volume> source, const Parameters& parameters)
     : source_(std::move(source)),

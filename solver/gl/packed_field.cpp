@@ -80,6 +80,10 @@ void PackedField::upload(std::span<const float> pages) {
   write_static_pages();
 }
 
+void PackedField::upload_page(PhysicalPage page, std::span<const float> tile, int buffer) {
+  phi_[static_cast<std::size_t>(buffer)].upload(layout_.rect(page), std::as_bytes(tile));
+}
+
 Result<std::vector<float>> PackedField::download(int buffer) const {
   const gpu::Texture2D& texture = phi(buffer);
   std::vector<float> texels(static_cast<std::size_t>(texture.width() * texture.height()));

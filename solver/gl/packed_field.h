@@ -32,6 +32,8 @@ class PackedField {
   // Writes pages kFirstPage, kFirstPage + 1, ... of all buffers: `pages` holds their voxels one page after
   // the other, i fastest.
   void upload(std::span<const float> pages);
+  // Writes the tile of one page in one buffer.
+  void upload_page(PhysicalPage page, std::span<const float> tile, int buffer);
   // The voxels of all physical pages, in the same order, page 0 first. Waits for the GPU.
   Result<std::vector<float>> download(int buffer) const;
 

@@ -45,17 +45,38 @@ Result<PhysicalPage> StreamExecutor::make_resident(std::int64_t virtual_page) {
   return page;
 }
 
-Status StreamExecutor::grant_requests(PhysicalPage page, PageMessage message) {
+// A bit a face: the page across it is wanted, and not resident.
+std::uint8_t StreamExecutor::requests(PhysicalPage page, PageMessage message) const {
+  if (!message.differs_across_any()) return 0;
+  const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
+  unsigned faces = 0;
+  for (int face = 0; face < kFaces; ++face) {
+    if (message.differs_across(face) && is_static_page(table_.physical(coordinates + kFaceSteps[face])))
+      faces |= 1U << face;
+  }
+  return static_cast<std::uint8_t>(faces);
+}
+
+Status StreamExecutor::grant_requests(PhysicalPage page, std::uint8_t requests) {
+  if (requests == 0) return {};
   const PageLayout& layout = table_.layout();
   const Index3 coordinates = layout.page_coordinates(table_.virtual_page(page));
   for (int face = 0; face < kFaces; ++face) {
-    if (!message.differs_across(face)) continue;
-    const Index3 across = coordinates + kFaceSteps[face];
-    // Most are resident, or were made so for another page.
-    if (!is_static_page(table_.physical(across))) continue;
-    TIDEMARK_TRY(make_resident(layout.page_number(across)));
+    if ((requests >> face & 1U) == 0) continue;
+    TIDEMARK_TRY(make_resident(layout.page_number(coordinates + kFaceSteps[face])));
   }
   return {};
+}
+
+PageDecision StreamExecutor::decide(PhysicalPage page, PageMessage message) const {
+  PageDecision decision;
+  decision.allocates = requests(page, message);
+  decision.wakes_around = message.moved() && !info(page).woke_neighbours;
+  if (message.is_mixed()) return decision;
+  decision.constant_steps =
+      static_cast<std::uint8_t>(std::min(info(page).constant_steps + 1, kConstantStepsBeforeRelease));
+  decision.frees = decision.constant_steps == kConstantStepsBeforeRelease && !message.differs_across_any();
+  return decision;
 }
 
 Status StreamExecutor::fill_new_pages() {
@@ -80,20 +101,14 @@ Status StreamExecutor::update_domain(const std::vector<PageMessage>& messages) {
   Status result;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     const PhysicalPage page = active_[i];
-    const PageMessage message = messages[i];
-    if (message.differs_across_any() && result) {
-      result = grant_requests(page, message);
+    const PageDecision decision = decide(page, messages[i]);
+    if (decision.allocates != 0 && result) {
+      result = grant_requests(page, decision.allocates);
       needs_activation_ = !result;
     }
-    if (message.moved() && !info(page).woke_neighbours) wake_around(page);
-    std::uint8_t& constant_steps = info(page).constant_steps;
-    if (message.is_mixed()) {
-      constant_steps = 0;
-    } else if (constant_steps + 1 < kConstantStepsBeforeRelease) {
-      ++constant_steps;
-    } else if (!message.differs_across_any()) {
-      release_page(page, message.is_inside());
-    }
+    if (decision.wakes_around) wake_around(page);
+    info(page).constant_steps = decision.constant_steps;
+    if (decision.frees) release_page(page, messages[i].is_inside());
   }
   const Status filled = fill_new_pages();
   return result ? filled : result;
@@ -118,7 +133,7 @@ Status StreamExecutor::activate_pages(std::vector<PhysicalPage> asked) {
     if (!messages) return pass_on(messages);
     Status result;
     for (std::size_t i = 0; i < asked.size() && result; ++i)
-      result = grant_requests(asked[i], (*messages)[i]);
+      result = grant_requests(asked[i], requests(asked[i], (*messages)[i]));
     asked = new_[0];
     asked.insert(asked.end(), new_[1].begin(), new_[1].end());
     TIDEMARK_TRY(fill_new_pages());

@@ -66,4 +66,43 @@ Result<std::vector<PageMotion>> PhysicalMemory::read_motion() const {
   return pages;
 }
 
+gpu::TexelRect PhysicalMemory::motion_texel(PhysicalPage page) const {
+  return {page % motion_.width(), page / motion_.width(), 1, 1};
+}
+
+// A page of this executor is a tile in the order of its voxels.
+Result<std::vector<float>> PhysicalMemory::read_page(PhysicalPage page, int buffer) const {
+  std::vector<float> voxels(static_cast<std::size_t>(field_.layout().layout().voxels_per_page()));
+  TIDEMARK_TRY(
+      field_.phi(buffer).download(field_.layout().rect(page), std::as_writable_bytes(std::span(voxels))));
+  return voxels;
+}
+
+Result<PageMotion> PhysicalMemory::read_motion(PhysicalPage page) const {
+  PageMotion motion;
+  TIDEMARK_TRY(motion_.download(motion_texel(page), std::as_writable_bytes(std::span(&motion, 1))));
+  return motion;
+}
+
+Result<PhysicalMemory::Kept> PhysicalMemory::keep(std::span<const PhysicalPage> pages, int buffer) const {
+  Kept kept;
+  for (const PhysicalPage page : pages) {
+    auto phi = read_page(page, buffer);
+    if (!phi) return pass_on(phi);
+    auto motion = read_motion(page);
+    if (!motion) return pass_on(motion);
+    kept.pages.push_back(page);
+    kept.phi.push_back(std::move(*phi));
+    kept.motion.push_back(*motion);
+  }
+  return kept;
+}
+
+void PhysicalMemory::put_back(const Kept& kept, int buffer) {
+  for (std::size_t i = 0; i < kept.pages.size(); ++i) {
+    field_.upload_page(kept.pages[i], kept.phi[i], buffer);
+    motion_.upload(motion_texel(kept.pages[i]), std::as_bytes(std::span(&kept.motion[i], 1)));
+  }
+}
+
 }  // namespace tidemark::solver

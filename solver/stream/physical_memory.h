@@ -39,6 +39,19 @@ class PhysicalMemory {
   // By physical page. Waits for the GPU.
   [[nodiscard]] Result<std::vector<PageMotion>> read_motion() const;
 
+  // Of one page. They wait for the GPU.
+  [[nodiscard]] Result<std::vector<float>> read_page(PhysicalPage page, int buffer) const;
+  [[nodiscard]] Result<PageMotion> read_motion(PhysicalPage page) const;
+
+  // What a step writes: phi of some pages in a buffer, and their motion.
+  struct Kept {
+    std::vector<PhysicalPage> pages;
+    std::vector<std::vector<float>> phi;
+    std::vector<PageMotion> motion;
+  };
+  [[nodiscard]] Result<Kept> keep(std::span<const PhysicalPage> pages, int buffer) const;
+  void put_back(const Kept& kept, int buffer);
+
   // Bytes of so many pages.
   [[nodiscard]] static std::int64_t bytes_for(const PackedLayout& layout, std::int64_t capacity);
 
@@ -49,6 +62,7 @@ class PhysicalMemory {
   };
   static Result<Motion> make_motion(gpu::Device& device, const PackedLayout& layout, std::int64_t capacity);
   Status make_targets(gpu::Device& device);
+  [[nodiscard]] gpu::TexelRect motion_texel(PhysicalPage page) const;
 
   PackedField field_;
   gpu::Texture2D motion_;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <glm/gtc/packing.hpp>
+
+#include "solver/stream/pass_record.h"
 
 namespace tidemark::solver {
 namespace {
@@ -229,6 +232,27 @@ Result<std::vector<PageMessage>> RegionPasses::read_message(std::int64_t pages) 
                                  std::as_writable_bytes(std::span(message))));
   message.resize(static_cast<std::size_t>(pages));
   return message;
+}
+
+Status RegionPasses::read_first_page(PassRecord& record) const {
+  constexpr gpu::TexelRect kPage{0, 0, kPageSide, kPageSide};
+  const auto read = [&](const gpu::Texture2D& texture, std::vector<glm::vec4>& values) {
+    values.resize(kPageSide * kPageSide);
+    return texture.download(kPage, std::as_writable_bytes(std::span(values)));
+  };
+  const gpu::Texture2D* differences[] = {&upwind_, &central_, &second_, &mixed_};
+  for (std::size_t i = 0; i < record.differences.size(); ++i)
+    TIDEMARK_TRY(read(*differences[i], record.differences[i]));
+  TIDEMARK_TRY(read(speed_terms_, record.speeds));
+  const auto read_blocks = [&](const gpu::Texture2D& texture, std::vector<glm::vec4>& values) -> Status {
+    constexpr std::int64_t kBlocks = PassRecord::kBlocks;
+    std::array<glm::u16vec4, kBlocks * kBlocks> halves{};
+    TIDEMARK_TRY(texture.download({0, 0, kBlocks, kBlocks}, std::as_writable_bytes(std::span(halves))));
+    for (const glm::u16vec4& half : halves) values.push_back(glm::unpackHalf(half));
+    return {};
+  };
+  TIDEMARK_TRY(read_blocks(in_slice_, record.across_in_slice));
+  return read_blocks(slices_, record.across_slices);
 }
 
 }  // namespace tidemark::solver

@@ -13,6 +13,8 @@
 
 namespace tidemark::solver {
 
+struct PassRecord;
+
 class RegionPasses {
  public:
   // Pages of the largest sub-region: 512 x 512 texels, as in the paper. Where the processor plays the GPU,
@@ -39,6 +41,9 @@ class RegionPasses {
   // The messages of the pages of the list, about phi in the given buffer. Waits for the GPU.
   Result<std::vector<PageMessage>> message(const GeometryEngine& geometry, const PhysicalMemory& memory,
                                            int buffer, float band, float quiet_change);
+
+  // Of the first page of a list that is one sub-region: the buffers that step() and message() have left.
+  Status read_first_page(PassRecord& record) const;
 
   // The pages of the list: both buffers become `value`, and their motion 0.
   void fill(const GeometryEngine& geometry, const PhysicalMemory& memory, float value) const;

@@ -9,6 +9,7 @@
 #include "solver/gl/gl_executor.h"
 #include "solver/paging/page_table.h"
 #include "solver/stream/geometry_engine.h"
+#include "solver/stream/pass_record.h"
 #include "solver/stream/physical_memory.h"
 #include "solver/stream/region_passes.h"
 
@@ -32,6 +33,8 @@ class StreamExecutor final : public GlExecutor {
   [[nodiscard]] MemoryReport memory() const override;
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override;
   bool packed_view(PackedView& view) override;
+  // Of a function that follows the surface, the D in use.
+  [[nodiscard]] Result<PassRecord> record_step(std::int64_t page) override;
   [[nodiscard]] Status validate() const override;
 
   [[nodiscard]] std::int64_t pooled_bytes() const { return passes_.pooled_bytes(); }
@@ -63,7 +66,9 @@ class StreamExecutor final : public GlExecutor {
   [[nodiscard]] std::int64_t state_bytes(std::int64_t capacity) const;
   Status make_room(std::int64_t more_pages);
   Result<PhysicalPage> make_resident(std::int64_t virtual_page);
-  Status grant_requests(PhysicalPage page, PageMessage message);
+  [[nodiscard]] std::uint8_t requests(PhysicalPage page, PageMessage message) const;
+  Status grant_requests(PhysicalPage page, std::uint8_t requests);
+  [[nodiscard]] PageDecision decide(PhysicalPage page, PageMessage message) const;
   Status fill_new_pages();
   void release_page(PhysicalPage page, bool inside);
   Status update_domain(const std::vector<PageMessage>& messages);
@@ -83,6 +88,12 @@ class StreamExecutor final : public GlExecutor {
     std::int64_t to_allocate = 0;
   };
   [[nodiscard]] PaintPlan plan_paint(const Sphere& sphere, Brush brush) const;
+
+  // The record of a step (recording.cpp).
+  [[nodiscard]] std::vector<PhysicalPage> recorded_pages(PhysicalPage page) const;
+  void record_address(PassRecord& record) const;
+  Status record_phi(PassRecord& record) const;
+  Status record_passes(PassRecord& record, const std::vector<PhysicalPage>& pages);
 
   // Quiet pages (quiet.cpp).
   void wake(PhysicalPage page);

@@ -131,6 +131,8 @@ void Actions::make_evolution() {
       make("step-back", "step-back", tr("One step &back"), QKeySequence(","), true, tr("Take one step back"));
   fastest_place = make("fastest-place", "target", tr("Where it moves &most"), QKeySequence("F"), true,
                        tr("Go to the place where the surface still moves most, and see why"));
+  passes = make("passes", nullptr, tr("Passes of a pa&ge"), {}, true,
+                tr("Follow a page through the passes of the stream executor, as the paper draws them"));
   restart = make("restart", "restart", tr("&Restart"), QKeySequence("Home"), true,
                  tr("Back to the start, with the parameters as they are now"));
 }
@@ -222,6 +224,12 @@ void Actions::make_windows() {
   cascade = make("cascade", "cascade", tr("&Cascade"), {}, false);
   tabs = make("tabs", "tabs", tr("Ta&bs"), {}, false);
   tabs->setCheckable(true);
+  duplicate_case = make("duplicate-case", "duplicate", tr("&Duplicate case"), {}, true,
+                        tr("Open another case that is like this one now, and goes on by itself"));
+  compare_schemes =
+      make("compare-schemes", nullptr, tr("Compare &schemes"), {}, true,
+           tr("The case and a copy of it, one with the scheme of the paper, one with the split one, "
+              "side by side in lock-step"));
   link =
       make("link", "link", tr("&Link cases"), QKeySequence("L"), false,
            tr("Cursor, slices and cameras of all cases move together, window and level within a modality"));
@@ -258,7 +266,8 @@ void Actions::follow_evolution(const engine::CaseState& state) {
   play->setChecked(state.playing);
   play->setIcon(icon(state.playing ? u"pause" : u"play"));
   play->setText(state.playing ? tr("&Pause") : tr("&Play"));
-  for (QAction* action : {step, restart, fastest_place, export_mesh, export_recipe, export_level_set})
+  for (QAction* action :
+       {step, restart, fastest_place, compare_schemes, export_mesh, export_recipe, export_level_set})
     action->setEnabled(state.begun);
   for (QAction* action : {export_segmentation, export_structure_set, export_label_meshes, send_result})
     action->setEnabled(state.begun || !state.labels.empty());

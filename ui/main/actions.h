@@ -56,6 +56,7 @@ class Actions : public QObject {
   QAction* step_back;
   QAction* restart;
   QAction* fastest_place;
+  QAction* passes;
   // Tools, in the order of Tool.
   QActionGroup* tools;
   QAction* last_tool;
@@ -73,6 +74,8 @@ class Actions : public QObject {
   QAction* tile;
   QAction* cascade;
   QAction* tabs;
+  QAction* duplicate_case;
+  QAction* compare_schemes;
   QAction* link;
   QAction* lock_step;
   // Help.

@@ -54,13 +54,23 @@ QIcon case_mark(int number) {
 }
 
 CaseHead::CaseHead(QWidget* parent)
-    : QWidget(parent), mark_(new QLabel), text_(new ElidedLabel({})), chain_(new QLabel) {
+    : QWidget(parent),
+      mark_(new QLabel),
+      text_(new ElidedLabel({})),
+      difference_(new QLabel),
+      chain_(new QLabel) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(kSpace, kSpaceTight, kSpace, kSpaceTight + kStripe);
   row->setSpacing(kSpace);
   row->addWidget(mark_);
   row->addWidget(text_, 1);
+  row->addWidget(difference_);
   row->addWidget(chain_);
+  QFont bold = difference_->font();
+  bold.setBold(true);
+  difference_->setFont(bold);
+  difference_->setToolTip(tr("The parameters in which the linked cases differ"));
+  difference_->setAccessibleName(tr("Difference"));
   chain_->setToolTip(tr("Linked with other cases: crosshair, slices and camera move together"));
   chain_->setAccessibleName(tr("Linked"));
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
@@ -93,6 +103,8 @@ void CaseHead::refresh() {
   refresh_text();
   chain_->setPixmap(icon(u"link").pixmap(QSize(kIconSmall, kIconSmall), devicePixelRatioF()));
   chain_->setVisible(window_->linked());
+  difference_->setText(window_->difference());
+  difference_->setVisible(!window_->difference().isEmpty());
   update();
 }
 

@@ -1,4 +1,5 @@
-// The line that names the case that is seen or acted on: its mark, the patient and the series.
+// The line that names the case that is seen or acted on: its mark, the patient and the series, and in what it
+// differs from linked cases.
 #pragma once
 
 #include <QIcon>
@@ -36,6 +37,7 @@ class CaseHead : public QWidget {
   QPointer<CaseWindow> window_;
   QLabel* mark_ = nullptr;
   ElidedLabel* text_ = nullptr;
+  QLabel* difference_ = nullptr;
   QLabel* chain_ = nullptr;
 };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "ui/main/parameter_difference.h"
+
 namespace tidemark::ui {
 namespace {
 
@@ -22,8 +24,10 @@ bool have_same_values(const engine::CaseProxy& a, const engine::CaseProxy& b) {
 void CaseLinks::link(const QList<CaseWindow*>& windows) {
   for (CaseWindow* window : std::exchange(windows_, {})) {
     window->disconnect(this);
+    window->proxy().disconnect(this);
     window->proxy().display().disconnect(this);
     window->set_linked(false);
+    window->set_difference({});
   }
   if (windows.size() > 1) {
     for (CaseWindow* window : windows) {
@@ -31,11 +35,20 @@ void CaseLinks::link(const QList<CaseWindow*>& windows) {
       window->set_linked(true);
       connect(&window->proxy().display(), &engine::Display::changed, this,
               [this, window] { follow(*window); });
+      connect(&window->proxy(), &engine::CaseProxy::state_changed, this, &CaseLinks::show_differences);
       connect(window, &QObject::destroyed, this, [this, window] { forget(window); });
     }
     follow(*windows_.first());
+    show_differences();
   }
   emit changed();
+}
+
+void CaseLinks::show_differences() {
+  std::vector<solver::Parameters> parameters;
+  for (CaseWindow* window : windows_) parameters.push_back(window->proxy().parameters());
+  const QStringList texts = parameter_differences(parameters);
+  for (qsizetype i = 0; i < windows_.size(); ++i) windows_[i]->set_difference(texts[i]);
 }
 
 void CaseLinks::play_together(const QList<CaseWindow*>& windows, bool together) {
@@ -54,7 +67,8 @@ bool CaseLinks::any_in_lock_step(const QList<CaseWindow*>& windows) {
 
 void CaseLinks::forget(CaseWindow* closed) {
   windows_.removeAll(closed);
-  if (windows_.size() < 2) unlink();
+  if (windows_.size() < 2) return unlink();
+  show_differences();
 }
 
 void CaseLinks::follow(CaseWindow& moved) {

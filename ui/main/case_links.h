@@ -29,6 +29,7 @@ class CaseLinks : public QObject {
 
  private:
   void follow(CaseWindow& moved);
+  void show_differences();
   void forget(CaseWindow* closed);
 
   QList<CaseWindow*> windows_;  // those that are open

@@ -133,6 +133,12 @@ void CaseWindow::set_linked(bool linked) {
   emit mark_changed();
 }
 
+void CaseWindow::set_difference(const QString& difference) {
+  if (difference == difference_) return;
+  difference_ = difference;
+  emit mark_changed();
+}
+
 void CaseWindow::follow_state() {
   setWindowTitle(title_of(*proxy_) + QStringLiteral("[*]"));
   setWindowModified(proxy_->state().modified);

@@ -37,6 +37,9 @@ class CaseWindow : public QMainWindow {
   void set_number(int number);
   [[nodiscard]] bool linked() const { return linked_; }
   void set_linked(bool linked);
+  // In which parameters it differs from the cases that it is linked to; empty: in none.
+  [[nodiscard]] const QString& difference() const { return difference_; }
+  void set_difference(const QString& difference);
 
   // Another view, as a tab behind the active one.
   PictureView* add_view(ViewKind kind);
@@ -65,7 +68,7 @@ class CaseWindow : public QMainWindow {
   QString session_file;
 
  signals:
-  // The number changed, or whether the case is linked.
+  // The number changed, or whether the case is linked, or how it differs from the others.
   void mark_changed();
   // The panel with all ways to begin.
   void place_panel_wanted();
@@ -93,6 +96,7 @@ class CaseWindow : public QMainWindow {
   QList<QDockWidget*> docks_;
   int number_ = 1;
   bool linked_ = false;
+  QString difference_;
   int docks_made_ = 0;  // for names
   ViewLayout layout_ = ViewLayout::paper;
   QByteArray before_maximised_;

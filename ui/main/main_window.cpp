@@ -21,6 +21,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/main/case_area.h"
+#include "ui/main/case_comparison.h"
 #include "ui/main/case_exports.h"
 #include "ui/main/case_files.h"
 #include "ui/main/case_links.h"
@@ -65,6 +66,7 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   recent_ = new RecentStudies(this);
   opener_ = new StudyOpener(this);
   links_ = new CaseLinks(this);
+  comparison_ = new CaseComparison(*this, *links_);
   files_ = new CaseFiles(*this);
   exports_ = new CaseExports(*this, *files_);
   films_ = new FilmWriter(*this, *files_);
@@ -315,6 +317,7 @@ void MainWindow::connect_evolution() {
   with_case(actions_->step_back, [](CaseWindow& window) { window.proxy().step_back(); });
   with_case(actions_->restart, [](CaseWindow& window) { window.proxy().restart(); });
   with_case(actions_->fastest_place, [](CaseWindow& window) { window.proxy().balance().ask_fastest(); });
+  connect(actions_->passes, &QAction::triggered, this, [this] { panels_->show("passes"); });
   with_case(actions_->forces, [](CaseWindow& window) {
     window.proxy().display().change(
         [](engine::DisplaySettings& settings) { settings.forces = !settings.forces; });
@@ -371,6 +374,8 @@ void MainWindow::connect_windows() {
     area_->cascade();
   });
   connect(actions_->tabs, &QAction::toggled, area_, &CaseArea::set_tabs);
+  with_case(actions_->duplicate_case, [this](CaseWindow& window) { comparison_->duplicate(window); });
+  with_case(actions_->compare_schemes, [this](CaseWindow& window) { comparison_->compare_schemes(window); });
   connect(actions_->link, &QAction::triggered, this,
           [this](bool linked) { links_->link(linked ? cases() : QList<CaseWindow*>{}); });
   connect(links_, &CaseLinks::changed, this, &MainWindow::follow_case);

@@ -18,6 +18,7 @@ struct LoadedStudy;
 namespace tidemark::ui {
 
 class CaseArea;
+class CaseComparison;
 class CaseExports;
 class FilmWriter;
 class CaseFiles;
@@ -103,6 +104,7 @@ class MainWindow : public QMainWindow {
   QStackedWidget* centre_ = nullptr;
   PanelDocks* panels_ = nullptr;
   CaseLinks* links_ = nullptr;
+  CaseComparison* comparison_ = nullptr;
   RecentStudies* recent_ = nullptr;
   StudyOpener* opener_ = nullptr;
   MessageBar* messages_ = nullptr;

@@ -74,7 +74,7 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   QMenu* evolution = window.menuBar()->addMenu(MainWindow::tr("Ev&olution"));
   evolution->addActions({actions.play, actions.step, actions.step_back, actions.restart});
   evolution->addSeparator();
-  evolution->addActions({actions.fastest_place, actions.forces});
+  evolution->addActions({actions.fastest_place, actions.forces, actions.passes});
   QMenu* tools = window.menuBar()->addMenu(MainWindow::tr("&Tools"));
   tools->addActions(actions.tools->actions());
   tools->addSeparator();
@@ -82,6 +82,8 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   parts.teaching->fill(*window.menuBar()->addMenu(MainWindow::tr("Te&ach")));
   QMenu* windows = window.menuBar()->addMenu(MainWindow::tr("&Window"));
   windows->addActions({actions.tile, actions.cascade, actions.tabs});
+  windows->addSeparator();
+  windows->addActions({actions.duplicate_case, actions.compare_schemes});
   windows->addSeparator();
   windows->addActions({actions.link, actions.lock_step});
   QMenu* help = window.menuBar()->addMenu(MainWindow::tr("&Help"));

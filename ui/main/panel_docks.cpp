@@ -1,6 +1,7 @@
 #include "ui/main/panel_docks.h"
 
 #include <QMainWindow>
+#include <QScreen>
 #include <QScrollArea>
 #include <QVBoxLayout>
 #include <utility>
@@ -17,12 +18,14 @@
 #include "ui/panels/statistics_panel.h"
 #include "ui/panels/sweep_panel.h"
 #include "ui/panels/value_unit.h"
+#include "ui/passes/passes_panel.h"
 #include "ui/transfer/transfer_function_editor.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr int kWidth = 320;  // logical pixels
+constexpr QSize kPassesWindow{970, 730};
 constexpr int kStateVersion = 2;
 constexpr int kStateWithoutHistory = 1;       // of arrangements from before there was that panel
 constexpr const char* kInFront = "in_front";  // property of a panel
@@ -50,10 +53,12 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   auto* statistics = new StatisticsPanel;
   statistics->set_export_action(actions.export_statistics);
   auto* sweep = new SweepPanel;
+  auto* passes = new PassesPanel;
+  passes->set_actions(actions.play, actions.step);
   transfer_ = new TransferFunctionEditor;
-  panels_ = {level_set, initialise, paint, display, history, labels, statistics, sweep};
-  // One column with its tabs at the side: the views keep the room. Editor and history scroll their parts
-  // themselves.
+  panels_ = {level_set, initialise, paint, display, history, labels, statistics, sweep, passes};
+  // One column with its tabs at the side: the views keep the room. Editor, history and passes scroll their
+  // parts themselves.
   const QList<QDockWidget*> docks{add("initialise", tr("Place surface"), scrolled(initialise)),
                                   add("level-set", tr("Level set"), scrolled(level_set)),
                                   add("history", tr("History"), history),
@@ -62,12 +67,18 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
                                   add("transfer", tr("Transfer"), transfer_),
                                   add("labels", tr("Labels"), scrolled(labels)),
                                   add("statistics", tr("Statistics"), scrolled(statistics)),
-                                  add("sweep", tr("Sweep"), scrolled(sweep))};
+                                  add("sweep", tr("Sweep"), scrolled(sweep)),
+                                  add("passes", tr("Passes"), passes)};
   for (qsizetype next = 1; next < docks.size(); ++next)
     window_.tabifyDockWidget(docks[next - 1], docks[next]);
   window_.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::East);
   window_.resizeDocks({docks[0]}, {kWidth}, Qt::Horizontal);
   docks[0]->raise();
+  // For lectures, and as a window of its own as wide as its columns.
+  docks.back()->hide();
+  connect(docks.back(), &QDockWidget::topLevelChanged, this, [dock = docks.back()](bool floats) {
+    if (floats) dock->resize(kPassesWindow.boundedTo(dock->screen()->availableSize()));
+  });
 }
 
 QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel) {

@@ -4,14 +4,23 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <algorithm>
 
 #include "ui/look/theme.h"
 #include "ui/widgets/disclosure.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/number_box.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
+#include "ui/widgets/wheel_guard.h"
 
 namespace tidemark::ui {
+namespace {
+
+constexpr double kNarrowestBand = 2.0;  // as solver::check() has it
+constexpr double kWidestBand = 20.0;
+
+}  // namespace
 
 SpeedDetails::SpeedDetails(QWidget* parent) : CaseWidget(parent) {
   auto* fold = new Disclosure(tr("Details of the speed"), QStringLiteral("speed"));
@@ -55,10 +64,10 @@ void SpeedDetails::add_terms(Form& form) {
 
 void SpeedDetails::add_scheme(Form& form) {
   form.heading(tr("Numerics"));
-  scheme_ = form.choice(tr("Scheme"),
-                        tr("How a step is computed. Split: data and smoothing have a gradient of their own "
-                           "each. Paper: one upwind gradient for both, as the paper writes it, in smaller "
-                           "steps."));
+  scheme_ = form.choice(
+      tr("Scheme"), tr("How a step of equation 6 is computed (paper, section 4.3). Split: data and curvature "
+                       "have a gradient of their own each. Paper: one upwind gradient for their sum, as the "
+                       "paper writes it, in steps of 0.6 of the length."));
   scheme_->addItem(tr("Split"), static_cast<int>(solver::Scheme::split));
   scheme_->addItem(tr("Paper"), static_cast<int>(solver::Scheme::paper));
   connect(scheme_, &QComboBox::activated, this, [this] {
@@ -66,8 +75,57 @@ void SpeedDetails::add_scheme(Form& form) {
     change([=](solver::Parameters& parameters) { parameters.scheme = scheme; },
            engine::CaseProxy::new_gesture());
   });
+  data_form_ =
+      form.choice(tr("Data term D"),
+                  tr("Equation 7 of the paper. Clamped: max(-1, 1 - |I - T| / ε), so that α means the "
+                     "same for every ε. Raw: ε - |I - T|, as the paper writes it, without a lower end: "
+                     "it outweighs the curvature, and the steps are short."));
+  data_form_->addItem(tr("Clamped"), static_cast<int>(solver::DataForm::clamped));
+  data_form_->addItem(tr("Raw"), static_cast<int>(solver::DataForm::raw));
+  connect(data_form_, &QComboBox::activated, this, [this] {
+    const auto form_of_data = static_cast<solver::DataForm>(data_form_->currentData().toInt());
+    change([=](solver::Parameters& parameters) { parameters.data_form = form_of_data; },
+           engine::CaseProxy::new_gesture());
+  });
+  add_band(form);
+  add_rescaling(form);
+}
+
+void SpeedDetails::add_band(Form& form) {
+  band_ = new NumberBox;
+  band_->setRange(kNarrowestBand, kWidestBand);
+  band_->setDecimals(1);
+  band_->setSingleStep(0.5);
+  band_->setKeyboardTracking(false);
+  band_->setSuffix(tr(" voxels"));
+  guard_wheel(band_);
+  form.row(
+      tr("Band W"), band_,
+      tr("φ is clamped to ±W (paper, section 4.2): pages farther from the surface are constant and need no "
+         "memory. With another W the surface begins again at its start."));
+  connect(band_, &NumberBox::valueChanged, this, [this](double value) {
+    change([value](solver::Parameters& parameters) { parameters.band = value; },
+           engine::CaseProxy::new_gesture());
+  });
+  band_by_spacing_ =
+      form.check(tr("W by the voxels' spacing"),
+                 tr("2.5 voxels, or twice the ratio of the largest spacing to the smallest: thick "
+                    "slices would stop the surface in a narrower band."));
+  connect(band_by_spacing_, &QCheckBox::clicked, this, [this](bool on) {
+    const double now = band();
+    change(
+        [=](solver::Parameters& parameters) {
+          parameters.band = on ? std::nullopt : std::optional<double>(now);
+        },
+        engine::CaseProxy::new_gesture());
+  });
+}
+
+void SpeedDetails::add_rescaling(Form& form) {
   rescale_ =
-      form.slider(tr("Rescaling w"), tr("How strongly the slope of φ is drawn to the target gradient."));
+      form.slider(tr("Rescaling w"), tr("The weight of the rescaling term of equation 5 (paper, section "
+                                        "4.2): how strongly the slope of φ is drawn to the target "
+                                        "gradient. It does not move the surface itself."));
   rescale_->set_decimals(3);
   rescale_->set_step(0.01);
   rescale_->set_range(0.0, 1.0, 0.0, 10.0);
@@ -86,8 +144,9 @@ void SpeedDetails::add_scheme(Form& form) {
         engine::CaseProxy::new_gesture());
   });
   target_gradient_ =
-      form.slider(tr("Target gradient"), tr("The slope of φ that the rescaling term keeps. At 1 "
-                                            "φ is a distance in voxels."));
+      form.slider(tr("Target gradient"),
+                  tr("g of equation 5 (paper, section 4.2): the slope of φ that the rescaling term "
+                     "keeps. At 1 φ is a distance in voxels; above it the band is narrower."));
   target_gradient_->set_decimals(2);
   target_gradient_->set_step(0.05);
   target_gradient_->set_range(0.2, 2.0, 0.05, 10.0);
@@ -101,6 +160,10 @@ double SpeedDetails::rescaling_weight() const {
   return proxy()->parameters().rescale.value_or(by_band);
 }
 
+double SpeedDetails::band() const {
+  return proxy()->parameters().band.value_or(proxy()->state().band);
+}
+
 void SpeedDetails::refresh() {
   const solver::Parameters& parameters = proxy()->parameters();
   paper_alpha_->setText(short_text(solver::paper_alpha(parameters)));
@@ -108,6 +171,10 @@ void SpeedDetails::refresh() {
   curvature_term_->setChecked(parameters.curvature_term);
   rescaling_term_->setChecked(parameters.rescaling_term);
   scheme_->setCurrentIndex(scheme_->findData(static_cast<int>(parameters.scheme)));
+  data_form_->setCurrentIndex(data_form_->findData(static_cast<int>(parameters.data_form)));
+  data_form_->setEnabled(document::uses_tent(proxy()->drive()));
+  band_->show_unless_typed(std::clamp(band(), kNarrowestBand, kWidestBand));
+  band_by_spacing_->setChecked(!parameters.band.has_value());
   rescale_->set_value(rescaling_weight());
   rescale_by_band_->setChecked(!parameters.rescale.has_value());
   target_gradient_->set_value(parameters.target_gradient);

@@ -1,5 +1,5 @@
-// The seldom changed part of the speed: its terms, its discretisation, and the rescaling term's numbers
-// (paper sections 2.1 and 4.2).
+// The seldom changed part of the speed: its terms, its discretisation, the band, and the rescaling term's
+// numbers (paper sections 2.1, 4.2 and 6.1).
 #pragma once
 
 #include <functional>
@@ -13,6 +13,7 @@ class QLabel;
 namespace tidemark::ui {
 
 class Form;
+class NumberBox;
 class SliderNumber;
 
 class SpeedDetails : public CaseWidget {
@@ -26,14 +27,20 @@ class SpeedDetails : public CaseWidget {
  private:
   void add_terms(Form& form);
   void add_scheme(Form& form);
+  void add_band(Form& form);
+  void add_rescaling(Form& form);
   void change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture);
   [[nodiscard]] double rescaling_weight() const;  // also where the band decides
+  [[nodiscard]] double band() const;              // also where the spacing decides
 
   QLabel* paper_alpha_;
   QCheckBox* data_term_;
   QCheckBox* curvature_term_;
   QCheckBox* rescaling_term_;
   QComboBox* scheme_;
+  QComboBox* data_form_;
+  NumberBox* band_;
+  QCheckBox* band_by_spacing_;
   SliderNumber* rescale_;
   QCheckBox* rescale_by_band_;
   SliderNumber* target_gradient_;

@@ -162,6 +162,44 @@ class LevelSetPanelTest : public QObject {
     QVERIFY(is_folded(ui::LevelSetPanel(), tr("Scheme")));
   }
 
+  void the_papers_data_term_and_another_band_can_be_chosen() {
+    the_case_->begin();
+    engine::CaseProxy& proxy = *the_case_->proxy;
+    proxy.step(3);
+    the_case_->wait_until_idle();
+    const double by_voxels = the_case_->state().band;
+    const double step_of_clamped = the_case_->state().time_step;
+    auto* form = named<QComboBox>(*panel_, tr("Data term D"));
+    form->setFocus();
+    QTest::keyClick(form, Qt::Key_Down);
+    the_case_->wait_until_idle();
+    QVERIFY(the_case_->state().parameters.data_form == solver::DataForm::raw);
+    QVERIFY(the_case_->state().time_step < step_of_clamped);
+    QCOMPARE(the_case_->state().step, std::int64_t{3});
+
+    // With another W it begins again, and undo leads back to where it was.
+    auto* by_spacing = button<QCheckBox>(*panel_, tr("W by the voxels' spacing"));
+    QVERIFY(by_spacing->isChecked());
+    QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Band W"))->value(), by_voxels);
+    type(tr("Band W"), "6");
+    QCOMPARE(the_case_->state().band, 6.0);
+    QCOMPARE(the_case_->state().step, std::int64_t{0});
+    QVERIFY(the_case_->state().begun);
+    QVERIFY(!by_spacing->isChecked());
+    proxy.step(2);
+    the_case_->wait_until_idle();
+    QTest::mouseClick(by_spacing, Qt::LeftButton, {}, {8, by_spacing->height() / 2});
+    the_case_->wait_until_idle();
+    QCOMPARE(the_case_->state().band, by_voxels);
+    QCOMPARE(the_case_->state().step, std::int64_t{0});
+    for (int entry = 0; entry < 3; ++entry) {
+      proxy.undo();
+      the_case_->wait_until_idle();
+    }
+    QCOMPARE(the_case_->state().band, by_voxels);
+    QCOMPARE(the_case_->state().step, std::int64_t{3});
+  }
+
   void the_papers_scheme_can_be_chosen_is_undone_and_recorded() {
     the_case_->begin();
     engine::CaseProxy& proxy = *the_case_->proxy;
