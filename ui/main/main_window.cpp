@@ -397,6 +397,7 @@ void MainWindow::connect_help() {
 // The window itself.
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!teaching_->may_close()) return event->ignore();
   area_->closeAllSubWindows();
   if (!area_->subWindowList().isEmpty()) {
     // The user keeps a case open, or saves one; closing is tried again after that.

@@ -10,6 +10,7 @@
 
 #include "engine/case_proxy.h"
 #include "engine/lesson_course.h"
+#include "ui/lessons/lesson_editor.h"
 #include "ui/lessons/lesson_panel.h"
 #include "ui/look/theme.h"
 #include "ui/main/case_files.h"
@@ -54,6 +55,12 @@ void Teaching::fill(QMenu& menu) {
     if (dock_) dock_->show();
   });
   menu.addSeparator();
+  connect(menu.addAction(tr("&Write a lesson…")), &QAction::triggered, this,
+          [this] { editor().new_lesson(); });
+  edit_ = menu.addAction(tr("&Change this lesson…"));
+  edit_->setEnabled(false);
+  connect(edit_, &QAction::triggered, this, [this] { editor().edit(course_->lesson(), file_); });
+  menu.addSeparator();
   auto* large = menu.addAction(tr("&Projector: large type"));
   large->setCheckable(true);
   connect(large, &QAction::toggled, this, &Teaching::set_large);
@@ -70,10 +77,12 @@ void Teaching::open(const QString& file) {
   if (!lesson) return window_.tell(QString::fromStdString(lesson.error().message), kAboutLessons);
   window_.settle(kAboutLessons);
   begin(std::move(*lesson), path.parent_path());
+  file_ = path;
 }
 
 void Teaching::begin(document::Lesson lesson, const std::filesystem::path& folder) {
   end();
+  file_.clear();
   course_ = std::make_unique<engine::LessonCourse>(std::move(lesson), folder);
   connect(course_.get(), &engine::LessonCourse::case_wanted, this, &Teaching::open_case);
   connect(course_.get(), &engine::LessonCourse::case_used, this, &Teaching::show_case);
@@ -103,6 +112,7 @@ void Teaching::begin(document::Lesson lesson, const std::filesystem::path& folde
   dock_->setWidget(content);
   dock_->show();
   show_->setEnabled(true);
+  edit_->setEnabled(true);
 }
 
 void Teaching::end() {
@@ -112,6 +122,7 @@ void Teaching::end() {
   course_.reset();
   dock_->hide();
   show_->setEnabled(false);
+  edit_->setEnabled(false);
 }
 
 CaseWindow* Teaching::window_of(const engine::CaseProxy* proxy) const {
@@ -151,6 +162,24 @@ void Teaching::name_case() {
   if (now == named_) return;
   named_ = now;
   head_->set_case(now);
+}
+
+LessonEditor& Teaching::editor() {
+  if (!editor_) {
+    const auto active = [this]() -> engine::CaseProxy* {
+      CaseWindow* window = window_.active_case();
+      return window ? &window->proxy() : nullptr;
+    };
+    editor_ = new LessonEditor(active, &window_);
+  }
+  editor_->show();
+  editor_->raise();
+  editor_->activateWindow();
+  return *editor_;
+}
+
+bool Teaching::may_close() {
+  return !editor_ || !editor_->isVisible() || editor_->close();
 }
 
 void Teaching::set_large(bool large) {

@@ -4,6 +4,7 @@
 #include <QFont>
 #include <QObject>
 #include <QPointer>
+#include <filesystem>
 #include <memory>
 
 #include "document/lesson.h"
@@ -22,6 +23,7 @@ namespace tidemark::ui {
 
 class CaseHead;
 class CaseWindow;
+class LessonEditor;
 class MainWindow;
 
 // One lesson at a time.
@@ -36,6 +38,8 @@ class Teaching : public QObject {
   void begin(document::Lesson lesson, const std::filesystem::path& folder);
   void open(const QString& file);  // a lesson; says what is wrong with it
   [[nodiscard]] engine::LessonCourse* course() const { return course_.get(); }  // null: none
+  // Whether the program may end: asks about a lesson that was written and not saved.
+  [[nodiscard]] bool may_close();
 
  private:
   void ask_and_open();
@@ -45,6 +49,7 @@ class Teaching : public QObject {
   void name_case();
   [[nodiscard]] CaseWindow* window_of(const engine::CaseProxy* proxy) const;
   void set_large(bool large);
+  LessonEditor& editor();  // seen from now on
 
   MainWindow& window_;
   std::unique_ptr<engine::LessonCourse> course_;
@@ -52,6 +57,9 @@ class Teaching : public QObject {
   CaseHead* head_ = nullptr;
   QPointer<CaseWindow> named_;  // at the head
   QAction* show_ = nullptr;
+  QAction* edit_ = nullptr;
+  std::filesystem::path file_;      // of the lesson; empty: one of the program's own
+  LessonEditor* editor_ = nullptr;  // once it is wanted
   QFont normal_;
 };
 
