@@ -85,7 +85,7 @@ class CornersTest : public QObject {
     painter.setRenderHint(QPainter::Antialiasing);
     if (what == 0)
       ui::paint_corner(painter, picture.size(), Qt::AlignLeft | Qt::AlignTop, {"Doe, John", "4711"});
-    if (what == 1) ui::paint_orientation(painter, picture.size(), {1.0, 0.0, 0.0}, {0.0, -1.0, 0.0});
+    if (what == 1) ui::paint_orientation(painter, picture.size(), {1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, true);
     if (what == 2) ui::paint_scale_bar(painter, picture.size(), 0.5);
     painter.end();
     // What lies around the lightest pixels of text, which are not quite white: the commonest colour there.

@@ -1,0 +1,109 @@
+// A lesson as a student does it: predict, try, measure, read why, and hand in.
+#include <QFile>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QRadioButton>
+
+#include "document/lesson.h"
+#include "engine/lesson_course.h"
+#include "tests/support/test_program.h"
+#include "tests/ui/main/desktop.h"
+#include "ui/lessons/hand_in_box.h"
+#include "ui/lessons/lesson_panel.h"
+#include "ui/main/teaching.h"
+
+namespace tidemark::test {
+namespace {
+
+constexpr int kPatience = 120'000;  // ms
+
+constexpr const char* kLesson = R"({
+  "format": "tidemark lesson", "version": 1, "title": "Curvature",
+  "study": {"phantom": "sphere"},
+  "parameters": {"target": 800, "range": 300, "alpha": 0, "data_term": false},
+  "parts": [
+    {"title": "Shrinks", "text": "A ball under its curvature.",
+     "question": {"text": "What happens?", "choices": ["It shrinks", "It grows"], "right": 1},
+     "try": {"steps": 60},
+     "measure": [{"figure": "radius_mm", "low": 4.5, "high": 5.2}, {"figure": "steps", "low": 60, "high": 60}],
+     "explanation": "Curvature pulls inwards."},
+    {"title": "Goes on", "text": "Further.",
+     "try": {"goes_on": true, "steps": 40},
+     "measure": [{"figure": "steps", "low": 100, "high": 100}]}
+  ]
+})";
+
+QPushButton* button(QWidget& in, const QString& text) {
+  for (auto* found : in.findChildren<QPushButton*>()) {
+    if (found->text() == text && found->isVisible()) return found;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+class LessonStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_lesson_is_done_from_its_first_part_to_its_file() {
+    Desktop desktop(story_executor(), {1366, 768});
+    const auto lesson = document::Lesson::parse(kLesson, "lesson");
+    QVERIFY(lesson.has_value());
+    desktop.window().teaching().begin(*lesson, {});
+    const engine::LessonCourse& course = *desktop.window().teaching().course();
+    auto* panel = desktop.window().findChild<ui::LessonPanel*>();
+    QVERIFY(panel);
+    QVERIFY(Desktop::wait_for([&] { return button(*panel, "Set up and play") != nullptr; }, kPatience));
+
+    // A prediction comes before the try.
+    QVERIFY(!button(*panel, "Set up and play")->isEnabled());
+    const auto choices = panel->findChildren<QRadioButton*>();
+    QCOMPARE(choices.size(), qsizetype(2));
+    choices.at(1)->click();
+    QTest::mouseClick(button(*panel, "Set up and play"), Qt::LeftButton);
+    QVERIFY(Desktop::wait_for([&] { return course.tried(0); }, kPatience));
+    QCOMPARE(desktop.state().step, std::int64_t{60});
+    QVERIFY(!choices.at(0)->isEnabled());
+    QVERIFY(!course.done(0));
+
+    QVERIFY(Desktop::wait_for([&] { return course.can_measure(); }, kPatience));
+    QTest::mouseClick(button(*panel, "Measure"), Qt::LeftButton);
+    QVERIFY(Desktop::wait_for([&] { return course.done(0); }, kPatience));
+    QVERIFY(course.lesson().parts[0].measures[0].holds(*course.answers().parts[0].figures[0]));
+    desktop.screenshot("lesson-measured");
+
+    // The next try goes on from there, also after the student has done something else.
+    desktop.proxy().step(7);
+    QTest::mouseClick(button(*panel, "Next"), Qt::LeftButton);
+    QVERIFY(Desktop::wait_for([&] { return button(*panel, "Set up and play") != nullptr; }, kPatience));
+    desktop.wait_until_idle();
+    QTest::mouseClick(button(*panel, "Set up and play"), Qt::LeftButton);
+    QVERIFY(Desktop::wait_for([&] { return course.tried(1) && !course.attempting(); }, kPatience));
+    QCOMPARE(desktop.state().step, std::int64_t{100});
+    QVERIFY(Desktop::wait_for([&] { return course.can_measure(); }, kPatience));
+    QTest::mouseClick(button(*panel, "Measure"), Qt::LeftButton);
+    QVERIFY(Desktop::wait_for([&] { return course.done(1); }, kPatience));
+
+    // One case was opened, and the answers have the student's name.
+    QCOMPARE(desktop.window().cases().size(), qsizetype(1));
+    auto* hand_in = panel->findChild<ui::HandInBox*>();
+    QVERIFY(hand_in);
+    QTest::keyClicks(hand_in->findChild<QLineEdit*>(), "Ada");
+    const TemporaryFolder folder;
+    for (const char* name : {"answers.csv", "answers.pdf"}) {
+      const QString file = QString::fromStdString((folder / name).string());
+      hand_in->write(file);
+      QVERIFY(Desktop::wait_for([&] { return QFile::exists(file); }, kPatience));
+      QFile written(file);
+      QVERIFY(written.open(QIODevice::ReadOnly));
+      const QByteArray bytes = written.readAll();
+      QVERIFY(bytes.contains("Ada") || bytes.startsWith("%PDF"));
+    }
+  }
+};
+
+}  // namespace tidemark::test
+
+TIDEMARK_TEST(tidemark::test::LessonStoryTest)
+#include "lesson_story_test.moc"
