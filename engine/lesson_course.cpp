@@ -115,7 +115,7 @@ void LessonCourse::take_case(CaseProxy& proxy) {
   cases_.erase(std::remove_if(cases_.begin(), cases_.end(),
                               [&](const LessonCase& one) { return one.place == place || !one.proxy; }),
                cases_.end());
-  cases_.push_back({place, &proxy, {}, 0});
+  cases_.push_back({place, &proxy, {}, 0, 0});
   connect(&proxy, &QObject::destroyed, this, [this] {
     end_attempt();
     emit changed();
@@ -151,7 +151,8 @@ std::size_t LessonCourse::before(std::size_t part) const {
 void LessonCourse::begin() {
   attempt_->on = case_of(attempt_->part);
   const LessonCase& on = *attempt_->on;
-  const bool untouched = on.after && on.proxy->state().edits == on.edits;
+  const CaseState& state = on.proxy->state();
+  const bool untouched = on.after && state.edits == on.edits && state.step == on.step;
   std::size_t part = attempt_->part;
   attempt_->parts.push_back(part);
   while (lesson_.parts[part].attempt->goes_on) {
@@ -207,6 +208,7 @@ void LessonCourse::follow_end(bool reached) {
   if (!reached) return end_attempt();
   on.after = attempt_->parts.back();
   on.edits = on.proxy->state().edits;
+  on.step = on.proxy->state().step;
   tried_[attempt_->parts.back()] = 1;
   attempt_->parts.pop_back();
   if (!attempt_->parts.empty()) return try_next();

@@ -84,6 +84,7 @@ class LessonCourse : public QObject {
     QPointer<CaseProxy> proxy;
     std::optional<std::size_t> after;  // the part whose try it stands at the end of
     std::uint64_t edits = 0;           // CaseState::edits then
+    std::int64_t step = 0;             // CaseState::step then
   };
   struct Attempt;
 
