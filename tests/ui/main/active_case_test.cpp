@@ -66,6 +66,8 @@ void ActiveCaseTest::init() {
     start.seeds.push_back({window->proxy().volume().geometry.to_patient({seed[0], seed[1], seed[2]}), 8.0});
     window->proxy().begin(start);
   }
+  // The one panel that is not there from the beginning.
+  desktop_->window().panels().show("passes");
   desktop_->wait_until_idle();
 }
 
