@@ -62,6 +62,7 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   setAcceptDrops(true);
   if (engine.pictures() == engine::Engine::Pictures::textures) expect_surfaces(*this);
   resize(QSize(1280, 800).boundedTo(screen()->availableSize()));
+  setStatusBar(status_bar_ = new StatusBar(engine));  // before those that add to it
   actions_ = new Actions(this);
   recent_ = new RecentStudies(this);
   opener_ = new StudyOpener(this);
@@ -77,7 +78,6 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   teaching_ = new Teaching(*this);
   make_menus(*this, *actions_, {recent_, panels_, teaching_});
   make_tool_bar(*this, *actions_);
-  setStatusBar(status_bar_ = new StatusBar(engine));
   results_ = new CaseResults(*this);
   images_ = new ImageAdder(*this);
   connect_files();
