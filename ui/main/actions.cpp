@@ -166,14 +166,14 @@ void Actions::make_tools() {
        tr("Measure a distance"));
   tool(engine::Tool::measure_angle, "tool-angle", "tool-angle", tr("A&ngle"), "A",
        tr("Measure an angle: one drag to the vertex, one to the other end"));
+  tool(engine::Tool::profile, "tool-profile", "tool-profile", tr("Line pr&ofile"), "N",
+       tr("Draw a line in a slice: φ and brightness along it are plotted in the panel Level set"));
   tool(engine::Tool::examples, "tool-examples", "tool-examples", tr("E&xamples"), "M",
        tr("Mark examples in slices: left button inside, right button outside, with Ctrl takes away"));
   tool(engine::Tool::wall, "tool-wall", "tool-wall", tr("Wa&ll"), "K",
        tr("Keep the surface out with a 3D brush; with Shift keep it in (right button: takes away)"));
   tool(engine::Tool::why, "tool-why", "tool-why", tr("Wh&y here?"), "Y",
        tr("Click on the surface to see why it moves or rests there; with Ctrl, just point at it"));
-  tool(engine::Tool::profile, "tool-profile", "tool-profile", tr("Line pr&ofile"), "N",
-       tr("Draw a line in a slice: φ and brightness along it are plotted in the panel Level set"));
   last_tool = make("last-tool", nullptr, tr("Last &tool"), QKeySequence("Space"), true,
                    tr("Change between the last two tools"));
 }
