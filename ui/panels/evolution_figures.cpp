@@ -24,16 +24,16 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
   dice_ =
       truth.figure(tr("Dice"), tr("How well the surface agrees with the phantom's true shape: 1 is all of "
                                   "it and nothing else, 0 nothing of it."));
-  mean_distance_ = truth.figure(tr("Mean distance"), tr("Between the surface and the true one, both ways, on "
-                                                        "average. As often as a tenth of the time allows."));
-  most_distance_ = truth.figure(tr("Hausdorff 95"),
-                                tr("95 of 100 places of the two surfaces are no farther from the other "
-                                   "one (the 95th percentile of the distances of both ways)."));
   truth_ =
       truth.check(tr("Show the truth"), tr("Draws the outline of the true shape into slices, in violet."));
   connect(truth_, &QCheckBox::clicked, this, [this](bool on) {
     change_display([=](engine::DisplaySettings& settings) { settings.truth = on; });
   });
+  mean_distance_ = truth.figure(tr("Mean distance"), tr("Between the surface and the true one, both ways, on "
+                                                        "average. As often as a tenth of the time allows."));
+  most_distance_ = truth.figure(tr("Hausdorff 95"),
+                                tr("95 of 100 places of the two surfaces are no farther from the other "
+                                   "one (the 95th percentile of the distances of both ways)."));
   truth_error_ =
       truth.check(tr("Distances to the truth"),
                   tr("Orange: what the surface has too much. Blue and hatched: what it has too little. "

@@ -21,11 +21,11 @@ LevelSetPanel::LevelSetPanel(QWidget* parent)
   add(new ExampleControls);
   add(new SpeedControls);
   add(new BalanceControls);
-  add(new ProfileControls);
   add(new SpeedDetails);
   add(new EvolutionFigures);
   add(new EvolutionCurves);
   add(new GradientFigures);
+  add(new ProfileControls);
 }
 
 }  // namespace tidemark::ui

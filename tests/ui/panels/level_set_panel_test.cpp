@@ -131,7 +131,7 @@ class LevelSetPanelTest : public QObject {
   void details_are_folded_away_until_somebody_unfolds_them() {
     const ui::LevelSetPanel fresh;
     const auto folds = fresh.findChildren<ui::Disclosure*>();
-    QCOMPARE(folds.size(), 3);
+    QCOMPARE(folds.size(), 4);
     for (const ui::Disclosure* fold : folds) QVERIFY(!fold->is_open());
     const auto is_folded = [](const ui::LevelSetPanel& in, const QString& name) {
       for (QWidget* widget : in.findChildren<QWidget*>()) {
