@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "document/executor_setup.h"
-#include "document/lesson_figure.h"
 #include "imaging/load_study.h"
 #include "imaging/phantom/phantom_name.h"
 
@@ -74,13 +73,7 @@ Result<LessonOutcome> LessonRunner::run(const LessonPart& part, const Progress& 
   if (!phi) return tl::unexpected<Error>(phi.error());
   const LessonState state{
       *phi, steps_, rests, setup_->executor().time_step(), setup_->executor().memory(), study_.truth.get()};
-  LessonOutcome outcome;
-  for (const LessonMeasure& measure : part.measures) {
-    auto value = lesson_figure(measure.figure)->measure(state, progress);
-    if (!value) return pass_on(value);
-    outcome.figures.push_back(*value);
-  }
-  return outcome;
+  return measure(part.measures, state, progress);
 }
 
 }  // namespace
@@ -110,6 +103,17 @@ bool LessonOutcome::holds(const LessonPart& part) const {
     if (!figures[i] || !part.measures[i].holds(*figures[i])) return false;
   }
   return true;
+}
+
+Result<LessonOutcome> measure(const std::vector<LessonMeasure>& measures, const LessonState& state,
+                              const Progress& progress) {
+  LessonOutcome outcome;
+  for (const LessonMeasure& measure : measures) {
+    auto value = lesson_figure(measure.figure)->measure(state, progress);
+    if (!value) return pass_on(value);
+    outcome.figures.push_back(*value);
+  }
+  return outcome;
 }
 
 Result<std::vector<LessonOutcome>> carry_out(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "document/lesson.h"
+#include "document/lesson_figure.h"
 #include "solver/executor.h"
 
 namespace tidemark::document {
@@ -28,6 +29,10 @@ struct LessonOutcome {
   // Whether every figure exists and is in its range.
   [[nodiscard]] bool holds(const LessonPart& part) const;
 };
+
+// Fails (ErrorKind::cancelled). Each figure is one of lesson_figures().
+Result<LessonOutcome> measure(const std::vector<LessonMeasure>& measures, const LessonState& state,
+                              const Progress& progress = {});
 
 // One outcome a part; a part to read has no figures. `done` is called after each part. Fails as the study's
 // loading and the executor do, naming the part.

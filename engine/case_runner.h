@@ -148,8 +148,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   bool pause_at_convergence_ = true;
   bool measurement_waits_ = false;
   bool history_waits_ = false;
-  std::uint64_t turn_ = 0;     // of the steps that wait: those of earlier ones are not wanted any more
-  std::int64_t advances_ = 0;  // how often steps were computed
+  std::uint64_t turn_ = 0;        // of the steps that wait: those of earlier ones are not wanted any more
+  std::int64_t advances_ = 0;     // how often steps were computed
   std::optional<Run> run_;        // that is under way; `steps` are left of it
   std::optional<Run> ended_run_;  // to be reported; `steps` were not computed
 

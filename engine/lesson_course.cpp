@@ -81,16 +81,10 @@ bool LessonCourse::answered(std::size_t part) const {
 
 // Cases.
 
-LessonCourse::Place LessonCourse::place_of(std::size_t part) const {
-  const document::LessonPart& wanted = lesson_.parts[part];
-  return {lesson_.study_of(wanted),
-          wanted.attempt ? wanted.attempt->parameters.band : lesson_.parameters.band};
-}
-
 const LessonCourse::LessonCase* LessonCourse::case_of(std::size_t part) const {
-  const Place place = place_of(part);
+  const document::LessonStudy& study = lesson_.study_of(lesson_.parts[part]);
   const auto found = std::find_if(cases_.begin(), cases_.end(), [&](const LessonCase& one) {
-    return one.place == place && one.proxy != nullptr;
+    return one.study == study && one.proxy != nullptr;
   });
   return found == cases_.end() ? nullptr : &*found;
 }
@@ -111,11 +105,11 @@ void LessonCourse::load(const document::LessonStudy& study) {
 
 void LessonCourse::take_case(CaseProxy& proxy) {
   if (!attempt_) return;
-  const Place place = place_of(attempt_->part);
+  const document::LessonStudy& study = lesson_.study_of(lesson_.parts[attempt_->part]);
   cases_.erase(std::remove_if(cases_.begin(), cases_.end(),
-                              [&](const LessonCase& one) { return one.place == place || !one.proxy; }),
+                              [&](const LessonCase& one) { return one.study == study || !one.proxy; }),
                cases_.end());
-  cases_.push_back({place, &proxy, {}, 0, 0});
+  cases_.push_back({study, &proxy, {}, 0, 0});
   connect(&proxy, &QObject::destroyed, this, [this] {
     end_attempt();
     emit changed();

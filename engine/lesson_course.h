@@ -73,14 +73,8 @@ class LessonCourse : public QObject {
   void take_case(tidemark::engine::CaseProxy& proxy);
 
  private:
-  // The level sets of one case have one band.
-  struct Place {
-    document::LessonStudy study;
-    std::optional<double> band;
-    bool operator==(const Place&) const = default;
-  };
   struct LessonCase {
-    Place place;
+    document::LessonStudy study;
     QPointer<CaseProxy> proxy;
     std::optional<std::size_t> after;  // the part whose try it stands at the end of
     std::uint64_t edits = 0;           // CaseState::edits then
@@ -88,7 +82,6 @@ class LessonCourse : public QObject {
   };
   struct Attempt;
 
-  [[nodiscard]] Place place_of(std::size_t part) const;
   [[nodiscard]] LessonCase* case_of(std::size_t part);
   [[nodiscard]] const LessonCase* case_of(std::size_t part) const;
   [[nodiscard]] std::size_t before(std::size_t part) const;  // that it goes on from

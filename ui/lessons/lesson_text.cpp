@@ -2,7 +2,6 @@
 
 #include <QCoreApplication>
 
-#include "document/lesson_figure.h"
 #include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
@@ -33,10 +32,15 @@ QString text(std::string_view words) {
 
 }  // namespace
 
-QString figure_title(const std::string& figure) {
+QString figure_title(std::string_view figure) {
   const document::LessonFigure* known = document::lesson_figure(figure);
-  if (known == nullptr) return QString::fromStdString(figure);
+  if (known == nullptr) return text(figure);
   return QCoreApplication::translate("tidemark::LessonFigure", std::string(known->title).c_str());
+}
+
+QString title_with_unit(const document::LessonFigure& figure) {
+  const QString title = figure_title(figure.name);
+  return figure.unit.empty() ? title : QStringLiteral("%1 (%2)").arg(title, text(figure.unit));
 }
 
 QString figure_text(const std::string& figure, double value) {

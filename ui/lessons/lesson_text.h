@@ -4,11 +4,13 @@
 #include <QString>
 
 #include "document/lesson.h"
+#include "document/lesson_figure.h"
 
 namespace tidemark::ui {
 
-[[nodiscard]] QString figure_title(const std::string& figure);               // "Volume"
-[[nodiscard]] QString figure_text(const std::string& figure, double value);  // "33.51 ml"
-[[nodiscard]] QString range_text(const document::LessonMeasure& measure);    // "33 to 34 ml"
+[[nodiscard]] QString figure_title(std::string_view figure);                  // "Volume"
+[[nodiscard]] QString title_with_unit(const document::LessonFigure& figure);  // "Volume (ml)"
+[[nodiscard]] QString figure_text(const std::string& figure, double value);   // "33.51 ml"
+[[nodiscard]] QString range_text(const document::LessonMeasure& measure);     // "33 to 34 ml"
 
 }  // namespace tidemark::ui

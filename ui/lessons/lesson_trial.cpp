@@ -4,6 +4,7 @@
 #include <QHeaderView>
 #include <QVBoxLayout>
 
+#include "ui/lessons/lesson_text.h"
 #include "ui/lessons/measure_rows.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -78,7 +79,7 @@ void LessonTrial::add_row(const QString& part, const document::LessonMeasure& me
     return item;
   };
   put(part_column, part)->setToolTip(part);
-  put(figure_column, figure_title(figure));
+  put(figure_column, title_with_unit(figure));
   put(measured_column, value ? number_text(*value, figure.digits) : tr("none"));
   put(expected_column, tr("%1 to %2").arg(general_text(measure.low, 9), general_text(measure.high, 9)));
   const bool holds = value && measure.holds(*value);

@@ -1,12 +1,12 @@
 #include "ui/lessons/measure_rows.h"
 
 #include <QComboBox>
-#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
+#include "ui/lessons/lesson_text.h"
 #include "ui/lessons/text_box.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -25,14 +25,6 @@ const document::LessonFigure& figure_of(const document::LessonMeasure& measure) 
 }
 
 }  // namespace
-
-QString figure_title(const document::LessonFigure& figure) {
-  const auto text = [](std::string_view words) {
-    return QString::fromUtf8(words.data(), qsizetype(words.size()));
-  };
-  const QString title = QCoreApplication::translate("LessonFigure", text(figure.title).toUtf8());
-  return figure.unit.empty() ? title : QStringLiteral("%1 (%2)").arg(title, text(figure.unit));
-}
 
 document::LessonMeasure measure_around(const document::LessonFigure& figure, double value, double percent) {
   document::LessonMeasure measure;
@@ -106,7 +98,7 @@ void MeasureRows::fill() {
 }
 
 void MeasureRows::add_row(std::size_t index) {
-  const QString title = figure_title(figure_of((*measures_)[index]));
+  const QString title = title_with_unit(figure_of((*measures_)[index]));
   auto* measured = new QLabel(measured_[index].isEmpty() ? QStringLiteral("–") : measured_[index]);
   measured->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   measured->setAccessibleName(tr("Measured: %1").arg(title));
@@ -131,7 +123,7 @@ QWidget* MeasureRows::make_figure(std::size_t index) {
   choice->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   guard_wheel(choice);
   for (const document::LessonFigure& figure : document::lesson_figures()) {
-    choice->addItem(figure_title(figure),
+    choice->addItem(title_with_unit(figure),
                     QString::fromUtf8(figure.name.data(), qsizetype(figure.name.size())));
   }
   choice->setCurrentIndex(choice->findData(QString::fromStdString((*measures_)[index].figure)));

@@ -14,8 +14,6 @@
 
 namespace tidemark::ui {
 
-// "Volume (ml)"
-[[nodiscard]] QString figure_title(const document::LessonFigure& figure);
 // The value to that many percent, outwards to the digits that the figure is shown with; a count is rounded.
 [[nodiscard]] document::LessonMeasure measure_around(const document::LessonFigure& figure, double value,
                                                      double percent);

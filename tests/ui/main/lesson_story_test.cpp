@@ -29,7 +29,9 @@ constexpr const char* kLesson = R"({
      "explanation": "Curvature pulls inwards."},
     {"title": "Goes on", "text": "Further.",
      "try": {"goes_on": true, "steps": 40},
-     "measure": [{"figure": "steps", "low": 100, "high": 100}]}
+     "measure": [{"figure": "steps", "low": 100, "high": 100}]},
+    {"title": "A wider band", "text": "From the start.",
+     "try": {"steps": 20, "parameters": {"band": 5}}}
   ]
 })";
 
@@ -84,6 +86,14 @@ class LessonStoryTest : public QObject {
     QVERIFY(Desktop::wait_for([&] { return course.can_measure(); }, kPatience));
     QTest::mouseClick(button(*panel, "Measure"), Qt::LeftButton);
     QVERIFY(Desktop::wait_for([&] { return course.done(1); }, kPatience));
+
+    // Another band begins the same case anew.
+    QTest::mouseClick(button(*panel, "Next"), Qt::LeftButton);
+    QVERIFY(Desktop::wait_for([&] { return button(*panel, "Set up and play") != nullptr; }, kPatience));
+    QTest::mouseClick(button(*panel, "Set up and play"), Qt::LeftButton);
+    QVERIFY(Desktop::wait_for([&] { return course.done(2); }, kPatience));
+    QCOMPARE(desktop.state().step, std::int64_t{20});
+    QCOMPARE(desktop.state().band, 5.0);
 
     // One case was opened, and the answers have the student's name.
     QCOMPARE(desktop.window().cases().size(), qsizetype(1));
