@@ -2,10 +2,12 @@
 
 #include <QAbstractEventDispatcher>
 #include <QMetaEnum>
+#include <QMouseEvent>
 #include <QPainter>
 #include <QPushButton>
 #include <QSettings>
 #include <QStandardPaths>
+#include <QWindow>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -141,9 +143,34 @@ void Desktop::in_an_event(const std::function<void()>& something) {
   wait_for([&] { return done; });
 }
 
+bool Desktop::hover(QWidget& widget, QPoint at) {
+  // The window's events say where the mouse is, whether its widgets ask for moves or not.
+  class Arrival : public QObject {
+   public:
+    explicit Arrival(QPoint at) : at_(at) {}
+    bool eventFilter(QObject* /*window*/, QEvent* event) override {
+      if (event->type() == QEvent::MouseMove) {
+        came_ |= static_cast<QMouseEvent*>(event)->globalPosition().toPoint() == at_;
+      }
+      return false;
+    }
+    bool came() const { return came_; }
+
+   private:
+    QPoint at_;
+    bool came_ = false;
+  };
+  Arrival arrival(widget.mapToGlobal(at));
+  widget.window()->windowHandle()->installEventFilter(&arrival);
+  // No event follows a move to where the mouse is already.
+  QTest::mouseMove(&widget, at + QPoint(1, 1));
+  QTest::mouseMove(&widget, at);
+  return wait_for([&] { return arrival.came(); }, 5000);
+}
+
 void Desktop::drag(QWidget& widget, const std::vector<QPoint>& way, Qt::MouseButton button,
                    Qt::KeyboardModifiers modifiers) {
-  QTest::mouseMove(&widget, way.front());
+  hover(widget, way.front());
   QTest::mousePress(&widget, button, modifiers, way.front());
   for (const QPoint& point : way) {
     // QTest's own moves do not say that a button is held.

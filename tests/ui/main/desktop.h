@@ -78,6 +78,9 @@ class Desktop {
     }
     return nullptr;
   }
+  // Moves the mouse to a point of the widget, and waits for the event that the window system sends.
+  // False where none came.
+  static bool hover(QWidget& widget, QPoint at);
   // Presses at one point of the patient, moves over the others, and releases.
   static void drag(ui::PictureView& view, const std::vector<glm::dvec3>& patient_mm,
                    Qt::MouseButton button = Qt::LeftButton, Qt::KeyboardModifiers modifiers = {});

@@ -43,9 +43,7 @@ class FusionStoryTest : public QObject {
     QVERIFY(Desktop::wait_for([&] { return images.size() == 1; }, kPatience));
     desktop.wait_until_idle();
     QVERIFY(difference(ct, axial->grab_picture()) > 0.05);
-    QTest::mouseMove(axial, axial->position_of(tumour).toPoint() + QPoint(2, 2));
-    QTest::mouseMove(axial, axial->position_of(tumour).toPoint());
-    QTest::qWait(50);
+    QVERIFY(Desktop::hover(*axial, axial->position_of(tumour).toPoint()));
     const QString values = desktop.window().findChild<ui::ValueBar*>()->text();
     QVERIFY2(values.contains("PET_image"), qPrintable(values));
     desktop.screenshot("fusion-1-pet-over-ct");

@@ -72,9 +72,7 @@ class ImagesStoryTest : public QObject {
   }
   QString values_at(glm::dvec3 place) {
     const QPoint at = axial()->position_of(place).toPoint();
-    QTest::mouseMove(axial(), at + QPoint(3, 3));
-    QTest::mouseMove(axial(), at);
-    QTest::qWait(50);
+    if (!Desktop::hover(*axial(), at)) return {};
     return desktop_->window().findChild<ui::ValueBar*>()->text();
   }
   template <class Widget>
@@ -169,15 +167,15 @@ class ImagesStoryTest : public QObject {
     desktop_->press(Qt::Key_B);
     const int y = axial()->height() / 3;
     const int x = axial()->width() / 2;
-    QTest::mouseMove(axial(), {x, y});
+    QVERIFY(Desktop::hover(*axial(), {x, y}));
     QVERIFY(axial()->cursor().shape() == Qt::SplitHCursor);
     Desktop::drag(*axial(), {QPoint(x, y), QPoint(x + x / 4, y), QPoint(x + x / 2, y)});
-    QTest::mouseMove(axial(), {x / 4, y});
+    QVERIFY(Desktop::hover(*axial(), {x / 4, y}));
     QVERIFY(axial()->cursor().shape() != Qt::SplitHCursor);
     QVERIFY(std::abs(desktop_->proxy().display().settings().swipe_at - 0.75) < 0.01);
     QVERIFY(!desktop_->state().begun);  // nothing was painted
     desktop_->press(Qt::Key_W);
-    QTest::mouseMove(axial(), {2, 2});
+    QVERIFY(Desktop::hover(*axial(), {2, 2}));
     const QImage right = picture();
     QVERIFY(difference(part(right, 0.0, 0.72), part(alone, 0.0, 0.72)) < 0.001);
     QVERIFY(difference(part(right, 0.78, 1.0), part(fused, 0.78, 1.0)) < 0.001);
