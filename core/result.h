@@ -40,6 +40,12 @@ template <class T>
   return tl::unexpected<Error>(std::move(failed.error()));
 }
 
+// The same for a result that stays: its error is copied.
+template <class T>
+[[nodiscard]] tl::unexpected<Error> pass_on(const Result<T>& failed) {
+  return tl::unexpected<Error>(failed.error());
+}
+
 // Returns the error of a Result or Status from the function around it:
 //   TIDEMARK_TRY(file.write(bytes));
 #define TIDEMARK_TRY(...)                                                                                 \

@@ -41,7 +41,7 @@ Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take) {
   if (!level_set_->begun()) return fail(ErrorKind::usage, "there is no surface to accept");
   TIDEMARK_TRY(level_set_->end_run());
   const auto phi = level_set_->checkpoint();
-  if (!phi) return tl::unexpected<Error>(phi.error());
+  if (!phi) return pass_on(phi);
   return labels_.accept((*phi)->mask(), label, take);
 }
 

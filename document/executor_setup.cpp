@@ -89,7 +89,7 @@ Status ExecutorSetup::smooth_source(double sigma_mm, const Progress& progress) {
 Status ExecutorSetup::set_source(std::shared_ptr<const Volume> source, double smoothed_mm,
                                  std::shared_ptr<const solver::SpeedFunction> speed) {
   const auto phi = executor_->snapshot();
-  if (!phi) return tl::unexpected<Error>(phi.error());
+  if (!phi) return pass_on(phi);
   auto fitting = solver::with_tents(std::move(speed), source, executor_->parameters());
   if (!fitting) return pass_on(fitting);
   TIDEMARK_TRY(
@@ -216,7 +216,7 @@ Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& p
 
 Status ExecutorSetup::resume() {
   const auto phi = executor_->snapshot();
-  if (!phi) return tl::unexpected<Error>(phi.error());
+  if (!phi) return pass_on(phi);
   return executor_->restore(*phi);
 }
 
@@ -251,7 +251,7 @@ Status ExecutorSetup::play(const Recipe& recipe, std::size_t first_event, std::i
         progress(done / static_cast<double>(last_step - first_step), what);
       };
       const auto report = executor_->advance(run);
-      if (!report) return tl::unexpected<Error>(report.error());
+      if (!report) return pass_on(report);
       step += report->steps;
       if (total != nullptr) add(*report, *total);
       if (to_rest && report->converged) break;

@@ -252,7 +252,7 @@ Status read_history(ZipReader& archive, SessionContents& contents, const std::st
   if (root.good())
     history.present = static_cast<std::size_t>(
         root.at("present").integer(0, static_cast<std::int64_t>(history.states.size()) - 1));
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  if (!root.good()) return pass_on(root.status());
   return read_phi(archive, contents, what);
 }
 

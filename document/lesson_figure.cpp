@@ -74,14 +74,14 @@ Result<std::optional<solver::SurfaceDistance>> distance_to_truth(const LessonSta
 
 Figure mean_distance(const LessonState& state, const Progress& progress) {
   const auto distance = distance_to_truth(state, progress);
-  if (!distance) return tl::unexpected<Error>(distance.error());
+  if (!distance) return pass_on(distance);
   if (!*distance) return std::nullopt;
   return (*distance)->mean_mm;
 }
 
 Figure largest_distance(const LessonState& state, const Progress& progress) {
   const auto distance = distance_to_truth(state, progress);
-  if (!distance) return tl::unexpected<Error>(distance.error());
+  if (!distance) return pass_on(distance);
   if (!*distance) return std::nullopt;
   return (*distance)->largest_mm;
 }

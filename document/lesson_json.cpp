@@ -298,16 +298,16 @@ const Start* Lesson::start_of(const LessonPart& part) const {
 
 Result<Lesson> Lesson::parse(std::string_view text, const std::string& file) {
   const auto json = JsonDocument::parse(text, file, {.bytes = kLargestFile});
-  if (!json) return tl::unexpected<Error>(json.error());
+  if (!json) return pass_on(json);
   const JsonField root = root_of(*json, file);
   Lesson lesson = read_lesson(root);
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  if (!root.good()) return pass_on(root.status());
   return lesson;
 }
 
 Result<Lesson> Lesson::load(const std::filesystem::path& file) {
   const auto text = read_text_file(file, kLargestFile);
-  if (!text) return tl::unexpected<Error>(text.error());
+  if (!text) return pass_on(text);
   return parse(*text, file.string());
 }
 

@@ -54,7 +54,7 @@ Status LessonRunner::set_up(const LessonPart& part, const Progress& progress) {
   steps_ = 0;
   const Start* own = lesson_.start_of(part);
   const auto begun = setup_->begin(own != nullptr ? *own : study_.start, progress);
-  return begun ? Status() : tl::unexpected<Error>(begun.error());
+  return begun ? Status() : pass_on(begun);
 }
 
 Result<LessonOutcome> LessonRunner::run(const LessonPart& part, const Progress& progress) {
@@ -70,7 +70,7 @@ Result<LessonOutcome> LessonRunner::run(const LessonPart& part, const Progress& 
     rests = report->converged;
   }
   const auto phi = setup_->executor().snapshot();
-  if (!phi) return tl::unexpected<Error>(phi.error());
+  if (!phi) return pass_on(phi);
   const LessonState state{
       *phi, steps_, rests, setup_->executor().time_step(), setup_->executor().memory(), study_.truth.get()};
   return measure(part.measures, state, progress);
@@ -88,7 +88,7 @@ Result<LessonVolume> load_lesson_study(const LessonStudy& study, const std::file
     return loaded;
   }
   const auto name = imaging::parse_phantom_name(study.phantom);
-  if (!name) return tl::unexpected<Error>(name.error());
+  if (!name) return pass_on(name);
   auto phantom = imaging::make_phantom(name->kind, name->options, progress);
   if (!phantom) return pass_on(phantom);
   loaded.start = suggested_start(phantom->volume.geometry, phantom->seed, phantom->init_threshold);

@@ -10,7 +10,7 @@ Result<SweepStart> LevelSet::sweep_start() {
   if (!begun()) return fail(ErrorKind::usage, "there is no surface yet: a start is needed");
   if (start_ == nullptr) {
     TIDEMARK_TRY(history_.close());
-    if (const auto point = start_point(); !point) return tl::unexpected<Error>(point.error());
+    if (const auto point = start_point(); !point) return pass_on(point);
   }
   if (step() == 0) {
     TIDEMARK_TRY(read_back_phi());  // painted before the first step

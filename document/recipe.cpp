@@ -20,7 +20,7 @@ const Event* last_event(const std::vector<RecipeEvent>& events) {
 
 Result<Recipe> Recipe::load(const std::filesystem::path& file) {
   const auto text = read_text_file(file, kLargestFile);
-  if (!text) return tl::unexpected<Error>(text.error());
+  if (!text) return pass_on(text);
   return parse(*text, file.string());
 }
 

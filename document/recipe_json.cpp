@@ -357,10 +357,10 @@ Result<std::string> Recipe::to_text() const {
 
 Result<Recipe> Recipe::parse(std::string_view text, const std::string& file) {
   const auto json = JsonDocument::parse(text, file, {.bytes = kLargestFile});
-  if (!json) return tl::unexpected<Error>(json.error());
+  if (!json) return pass_on(json);
   const JsonField root = root_of(*json, file);
   Recipe recipe = read_recipe(root);
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  if (!root.good()) return pass_on(root.status());
   return recipe;
 }
 

@@ -46,9 +46,9 @@ Result<imaging::Segments> read_labels(const std::filesystem::path& file, const G
   progress(0.0, "reading labels");
   if (imaging::result_form_of(file)) return imaging::read_result(file, &grid);
   const auto volume = imaging::load_volume(file, {}, progress);
-  if (!volume) return tl::unexpected<Error>(volume.error());
+  if (!volume) return pass_on(volume);
   const auto values = imaging::onto_grid(*volume, grid, file.string());
-  if (!values) return tl::unexpected<Error>(values.error());
+  if (!values) return pass_on(values);
   auto segments = imaging::segments_of_numbers(grid, *values, file.string());
   if (segments) segments->changes = volume->changes;
   return segments;

@@ -96,7 +96,7 @@ Status write_meshes(const imaging::Segments& segments, const std::filesystem::pa
     if (progress.cancelled()) return cancelled_error();
     progress(static_cast<double>(i) / static_cast<double>(files.size()), "writing surfaces");
     const auto mesh = mesh_of(segments.geometry, segments.list[i]);
-    if (!mesh) return tl::unexpected<Error>(mesh.error());
+    if (!mesh) return pass_on(mesh);
     auto file = AtomicFile::create(files[i]);
     if (!file) return pass_on(file);
     TIDEMARK_TRY(imaging::write_mesh(*mesh, file->temporary_path()));

@@ -75,7 +75,7 @@ Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
 Status save_session(Case& document, const std::filesystem::path& file) {
   TIDEMARK_TRY(document.level_set().end_run());
   const auto contents = snapshot_of(document);
-  if (!contents) return tl::unexpected<Error>(contents.error());
+  if (!contents) return pass_on(contents);
   TIDEMARK_TRY(write_session(*contents, file));
   document.mark_saved();
   return {};

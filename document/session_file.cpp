@@ -222,10 +222,10 @@ Result<std::shared_ptr<const solver::Field>> read_phi(ZipReader& archive, const 
   const double band = field.at("band").number(2.0, 1e6);
   const Index3 shape = field.at("page_shape").index(1, 64);
   if (!is_page_shape(shape)) field.at("page_shape").wrong("no pages have that shape");
-  if (!field.good()) return tl::unexpected<Error>(field.status().error());
+  if (!field.good()) return pass_on(field.status());
   const solver::PageLayout layout(geometry.size, shape);
   const std::int64_t resident = field.at("resident_pages").integer(0, layout.page_count());
-  if (!field.good()) return tl::unexpected<Error>(field.status().error());
+  if (!field.good()) return pass_on(field.status());
   auto table = read_numbers<std::int32_t>(archive, kTable, layout.page_count());
   if (!table) return pass_on(table);
   auto pages = read_numbers<float>(archive, kPages, resident * layout.voxels_per_page());
@@ -275,7 +275,7 @@ Result<OpenedSession> open_session(const std::filesystem::path& file) {
   root.at("format").must_be(kFormat);
   const JsonField version = root.at("version");
   if (version.integer(0, 1 << 30) != kSessionVersion) version.wrong("this version cannot be read");
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  if (!root.good()) return pass_on(root.status());
   return OpenedSession{std::move(*archive), std::move(*text), std::move(*json)};
 }
 
@@ -328,7 +328,7 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   if (root.good() && contents.recipe.source.size != contents.geometry.size) {
     root.at("recipe").wrong("is of another grid");
   }
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  if (!root.good()) return pass_on(root.status());
   auto phi = read_phi(opened->archive, root.at("phi"), contents.geometry, name);
   if (!phi) return pass_on(phi);
   contents.phi = std::move(*phi);
@@ -342,10 +342,10 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
 
 Result<StudyOrigin> load_origin(const std::filesystem::path& file) {
   const auto opened = open_session(file);
-  if (!opened) return tl::unexpected<Error>(opened.error());
+  if (!opened) return pass_on(opened);
   const JsonField root = root_of(opened->json, file.string());
   StudyOrigin origin = read_study(root.at("study"), file);
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  if (!root.good()) return pass_on(root.status());
   return origin;
 }
 

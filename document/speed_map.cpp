@@ -15,7 +15,7 @@ Result<std::vector<float>> values_of(const std::filesystem::path& file, const Ge
                                      const Progress& progress) {
   const bool is_dicom = imaging::holds_map(file);
   const auto loaded = is_dicom ? imaging::read_map(file) : imaging::load_volume(file, {}, progress);
-  if (!loaded) return tl::unexpected<Error>(loaded.error());
+  if (!loaded) return pass_on(loaded);
   auto same = imaging::onto_grid(*loaded, grid, file.string());
   if (same || !is_dicom) return same;
   const float outside = loaded->range().first < 0.0F ? -1.0F : 0.0F;

@@ -144,7 +144,7 @@ Result<solver::Field> begin(solver::Executor& executor, const Volume& source, co
                             const Progress& progress) {
   TIDEMARK_TRY(check_spheres(start, source.geometry));
   const auto before = executor.snapshot();
-  if (!before) return tl::unexpected<Error>(before.error());
+  if (!before) return pass_on(before);
   auto phi = begin_unguarded(executor, source, start, progress);
   if (!phi) {
     TIDEMARK_TRY(executor.restore(*before));

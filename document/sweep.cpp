@@ -170,10 +170,10 @@ Status Runs::evolve(SweepRun& run) {
   TIDEMARK_TRY(setup->set_limit(start_.limit));
   TIDEMARK_TRY(setup->executor().restore(*start_.phi));
   const auto report = setup->executor().advance({options_.steps, options_.until_converged, silent()});
-  if (!report) return tl::unexpected<Error>(report.error());
+  if (!report) return pass_on(report);
   if (stop_.stop_requested()) return cancelled_error();
   const auto phi = setup->executor().snapshot();
-  if (!phi) return tl::unexpected<Error>(phi.error());
+  if (!phi) return pass_on(phi);
   const solver::SurfaceStatistics surface = solver::measure(*phi);
   run.steps = report->steps;
   run.converged = report->converged;

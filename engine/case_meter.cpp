@@ -42,7 +42,7 @@ void CaseMeter::adjusted() {
 Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, bool thoroughly) {
   const auto began = Clock::now();
   const auto phi = read_phi();
-  if (!phi) return tl::unexpected<Error>(phi.error());
+  if (!phi) return pass_on(phi);
   phi_ = *phi;
   surface_ = tidemark::solver::measure(*phi_);
   if (overlap_) dice_ = overlap_->dice(*phi_);

@@ -97,7 +97,7 @@ Status CasePainter::show_phi(Canvas& canvas, document::Case& document, bool with
   canvas.sees_executor = *seen;
   if (*seen) return {};
   const auto field = phi(document);
-  if (!field) return tl::unexpected<Error>(field.error());
+  if (!field) return pass_on(field);
   ++phi_copies_;
   TIDEMARK_TRY(canvas.renderer->set_phi(*field, quiet.value_or(std::vector<std::int64_t>())));
   if (canvas.gl != nullptr) pages_uploaded_ += canvas.gl->pages_uploaded();
@@ -181,7 +181,7 @@ Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::st
   }
   if (!wish || wish->size.width <= 0 || wish->size.height <= 0) return false;
   const auto canvas = canvas_for(wish->view, document);
-  if (!canvas) return tl::unexpected<Error>(canvas.error());
+  if (!canvas) return pass_on(canvas);
   if (is_new || slot.drawn_phi != phi_revision_ || slot.drawn_look != look_revision_) {
     slot.quality.moved();
     slot.mean.clear();
@@ -263,7 +263,7 @@ Result<std::optional<renderer::Hit>> CasePainter::pick(const renderer::VolumeVie
                                                        renderer::PictureSize size, glm::dvec2 pixel,
                                                        document::Case& document) {
   const auto canvas = canvas_for(view, document);
-  if (!canvas) return tl::unexpected<Error>(canvas.error());
+  if (!canvas) return pass_on(canvas);
   return (*canvas)->renderer->pick(view, size, pixel);
 }
 

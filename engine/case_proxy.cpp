@@ -250,7 +250,7 @@ void CaseProxy::phi_of(std::uint64_t state, std::function<void(StateComparison::
       return std::make_shared<const solver::Field>(document.level_set().phi_at(state));
     });
     weak_receiver->send([answer, phi = found ? *found : StateComparison::Phi()] { answer(phi); });
-    if (!found) return tl::unexpected<Error>(found.error());
+    if (!found) return pass_on(found);
     return {};
   });
 }
@@ -258,7 +258,7 @@ void CaseProxy::phi_of(std::uint64_t state, std::function<void(StateComparison::
 void CaseProxy::add_label(const QString& name) {
   post([name = name.toStdString()](CaseRunner& runner, const Progress&) -> Status {
     const auto id = runner.document().labels().add(name);
-    if (!id) return tl::unexpected<Error>(id.error());
+    if (!id) return pass_on(id);
     return runner.report_labels({});
   });
 }
@@ -288,7 +288,7 @@ void CaseProxy::accept_surface(std::uint8_t label, document::Take take) {
 void CaseProxy::accept_surface_as(const QString& name, document::Take take) {
   post([name = name.toStdString(), take](CaseRunner& runner, const Progress&) -> Status {
     const auto id = runner.document().labels().add(name);
-    if (!id) return tl::unexpected<Error>(id.error());
+    if (!id) return pass_on(id);
     return runner.accept_surface(*id, take);
   });
 }
@@ -305,7 +305,7 @@ void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize siz
   post([view, size, pixel, answer = std::move(answer), weak_receiver = weak_receiver_](
            CaseRunner& runner, const Progress&) -> Status {
     const auto hit = runner.painter().pick(view, size, pixel, runner.document());
-    if (!hit) return tl::unexpected<Error>(hit.error());
+    if (!hit) return pass_on(hit);
     weak_receiver->send([answer, found = *hit] { answer(found); });
     return {};
   });
@@ -348,7 +348,7 @@ void CaseProxy::take_snapshot(std::string view_state,
       return {};
     }
     if (gave_up) weak_receiver->send(gave_up);
-    return tl::unexpected<Error>(taken.error());
+    return pass_on(taken);
   });
 }
 

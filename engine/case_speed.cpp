@@ -41,7 +41,7 @@ Result<bool> CaseSpeed::take(document::Case& document, const SpeedOrigin& origin
   waits_ = false;
   const bool smooths = smoothing_.has_value();
   smoothing_.reset();
-  if (!made) return tl::unexpected<Error>(made.error());
+  if (!made) return pass_on(made);
   document::LevelSet& level_set = document.level_set();
   TIDEMARK_TRY(smooths ? level_set.set_source(made->source, origin.smoothed_mm, made->speed)
                        : level_set.set_speed(made->speed));

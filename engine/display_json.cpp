@@ -224,7 +224,7 @@ std::string to_json(const DisplaySettings& s) {
 
 Result<DisplaySettings> display_settings(const std::string& text, DisplaySettings s) {
   const auto json = JsonDocument::parse(text, "view state", kLimits);
-  if (!json) return tl::unexpected<Error>(json.error());
+  if (!json) return pass_on(json);
   const JsonField root = root_of(*json, "view state");
   if (root.has("slices")) read_slices(root.at("slices"), s);
   if (root.has("volume")) read_volume(root.at("volume"), s);
@@ -236,7 +236,7 @@ Result<DisplaySettings> display_settings(const std::string& text, DisplaySetting
     s.chosen_primitive = static_cast<int>(root.at("chosen_primitive").integer(0, 1000));
   if (root.has("images")) read_images(root.at("images"), s);
   if (root.has("measurements")) read_measurements(root.at("measurements"), s);
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  if (!root.good()) return pass_on(root.status());
   return s;
 }
 

@@ -29,7 +29,7 @@ class Camera {
           return renderer_->draw(view, size_, Progress{nullptr, stop});
         },
         view_);
-    if (!picture) return tl::unexpected<Error>(picture.error());
+    if (!picture) return pass_on(picture);
     return film_.add(picture->pixels);
   }
 

@@ -30,7 +30,7 @@ void LessonJobs::write(const document::Lesson& lesson, const std::filesystem::pa
   run(
       [lesson, file](const Progress&) -> Status {
         const auto text = lesson.to_text();
-        if (!text) return tl::unexpected<Error>(text.error());
+        if (!text) return pass_on(text);
         return write_file(file, *text);
       },
       [this] { emit written(); });
@@ -51,9 +51,9 @@ void LessonJobs::suit(const std::string& phantom) {
   run(
       [phantom](const Progress& progress) -> Result<solver::Parameters> {
         const auto name = imaging::parse_phantom_name(phantom);
-        if (!name) return tl::unexpected<Error>(name.error());
+        if (!name) return pass_on(name);
         const auto made = imaging::make_phantom(name->kind, name->options, progress);
-        if (!made) return tl::unexpected<Error>(made.error());
+        if (!made) return pass_on(made);
         solver::Parameters parameters;
         parameters.target = made->target;
         parameters.range = made->range;

@@ -25,7 +25,7 @@ Result<imaging::Sent> write_and_send(const imaging::PacsServer& server, const Pa
                 folder.path().toStdString());
   }
   const auto files = write(folder.path().toStdString(), progress.part(0, 2));
-  if (!files) return tl::unexpected<Error>(files.error());
+  if (!files) return pass_on(files);
   return imaging::send_files(server, *files, progress.part(1, 2));
 }
 

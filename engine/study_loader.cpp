@@ -79,16 +79,16 @@ Result<imaging::Catalogue> find_choice(const fs::path& path, const imaging::Grid
 Result<LoadedStudy> find_and_load(const fs::path& path, const std::string& uid,
                                   const imaging::GridPolicy& policy, const Progress& progress) {
   const auto catalogue = find_series(path, progress, policy);
-  if (!catalogue) return tl::unexpected<Error>(catalogue.error());
+  if (!catalogue) return pass_on(catalogue);
   const auto chosen = imaging::choose_series(*catalogue, uid, path);
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (!chosen) return pass_on(chosen);
   return load_study(*chosen, progress);
 }
 
 Result<LoadedStudy> make_phantom_study(const std::string& name, const Progress& progress) {
   progress(0.0, "making the phantom");
   const auto wanted = imaging::parse_phantom_name(name);
-  if (!wanted) return tl::unexpected<Error>(wanted.error());
+  if (!wanted) return pass_on(wanted);
   auto phantom = imaging::make_phantom(wanted->kind, wanted->options, progress);
   if (!phantom) return pass_on(phantom);
   LoadedStudy study;

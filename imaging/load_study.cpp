@@ -67,7 +67,7 @@ Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progres
 // As a folder, whose files are removed with the last holder of a series of it.
 Result<Catalogue> find_in_archive(const fs::path& file, const Progress& progress) {
   const auto archive = StudyArchive::unpack(file, progress.part(0, 2));
-  if (!archive) return tl::unexpected<Error>(archive.error());
+  if (!archive) return pass_on(archive);
   const StudyArchive& unpacked = **archive;
   auto catalogue = find_in_folder(unpacked.folder(), progress.part(1, 2));
   if (!catalogue) {

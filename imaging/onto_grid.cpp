@@ -97,7 +97,7 @@ Result<Mask> onto_grid(Mask mask, const Geometry& grid, const std::string& what)
     return mask;
   }
   const auto offsets = matching_voxels(mask.geometry, grid, what);
-  if (!offsets) return tl::unexpected<Error>(offsets.error());
+  if (!offsets) return pass_on(offsets);
   Mask result{grid, std::vector<std::uint8_t>(offsets->size())};
   std::transform(offsets->begin(), offsets->end(), result.voxels.begin(),
                  [&](std::int64_t offset) { return mask.voxels[static_cast<std::size_t>(offset)]; });
@@ -107,7 +107,7 @@ Result<Mask> onto_grid(Mask mask, const Geometry& grid, const std::string& what)
 Result<std::vector<float>> onto_grid(const Volume& volume, const Geometry& grid, const std::string& what) {
   if (same_grid(volume.geometry, grid, tolerance_mm(grid))) return volume.values();
   const auto offsets = matching_voxels(volume.geometry, grid, what);
-  if (!offsets) return tl::unexpected<Error>(offsets.error());
+  if (!offsets) return pass_on(offsets);
   std::vector<float> result(offsets->size());
   std::transform(offsets->begin(), offsets->end(), result.begin(),
                  [&](std::int64_t offset) { return volume.value(offset); });

@@ -117,7 +117,7 @@ Result<std::int64_t> fill(const Volume& image, const std::vector<Voxel>& voxels,
 Result<Resampled> resample(const Volume& image, const glm::dmat4& transform, const Geometry& grid,
                            const std::string& what, const Progress& progress, std::optional<float> outside) {
   const auto map = make_map(image.geometry, transform, grid, what);
-  if (!map) return tl::unexpected<Error>(map.error());
+  if (!map) return pass_on(map);
   Resampled result;
   result.volume.geometry = grid;
   result.volume.modality = image.modality;
@@ -130,7 +130,7 @@ Result<Resampled> resample(const Volume& image, const glm::dmat4& transform, con
     std::vector<float> values(static_cast<std::size_t>(grid.voxel_count()), background);
     const auto covered = std::visit(
         [&](const auto& voxels) { return fill(image, voxels, *map, grid, values, progress); }, image.voxels);
-    if (!covered) return tl::unexpected<Error>(covered.error());
+    if (!covered) return pass_on(covered);
     if (*covered == 0) {
       return fail(ErrorKind::usage, "{}: its {} lie elsewhere in the patient than the study's {}", what,
                   describe(image.geometry), describe(grid));

@@ -153,7 +153,7 @@ double TransferFunction::most_opacity(double low, double high, double low_phi, d
 
 Result<TransferFunction> TransferFunction::parse(std::string_view json, const std::string& file) {
   const auto document = JsonDocument::parse(json, file, kLimits);
-  if (!document) return tl::unexpected<Error>(document.error());
+  if (!document) return pass_on(document);
   const JsonField root = root_of(*document, file);
   root.only({"name", "relative", "source", "surface"});
   TransferFunction function;
@@ -164,13 +164,13 @@ Result<TransferFunction> TransferFunction::parse(std::string_view json, const st
   if (root.good() && function.source.empty() && function.surface.empty()) {
     root.wrong("neither 'source' nor 'surface' has primitives");
   }
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  if (!root.good()) return pass_on(root.status());
   return function;
 }
 
 Result<TransferFunction> TransferFunction::load(const std::filesystem::path& file) {
   const auto text = read_text_file(file, kLimits.bytes);
-  if (!text) return tl::unexpected<Error>(text.error());
+  if (!text) return pass_on(text);
   return parse(*text, file.string());
 }
 

@@ -26,7 +26,7 @@ Status for_each_page(const Executor& executor, const Visit& visit) {
     return {};
   }
   const auto phi = executor.snapshot();
-  if (!phi) return tl::unexpected<Error>(phi.error());
+  if (!phi) return pass_on(phi);
   for (std::int64_t page = 0; page < phi->layout.page_count(); ++page) {
     const std::int32_t entry = phi->table[static_cast<std::size_t>(page)];
     if (entry == Field::kOutside) continue;

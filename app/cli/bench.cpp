@@ -166,7 +166,7 @@ Result<std::vector<Stage>> measure_stages(solver::Executor& solver, std::int64_t
       TIDEMARK_TRY(let_rest(solver));
     }
     const auto report = solver.advance(solver::Advance{plan.steps, plan.until_converged, console.progress()});
-    if (!report) return tl::unexpected<Error>(report.error());
+    if (!report) return pass_on(report);
     if (console.interrupted()) return cancelled_error();
     stages.push_back({std::string(plan.name), *report, solver.memory()});
   }
@@ -195,7 +195,7 @@ Status run(Program& program, const BenchOptions& options) {
   Console& console = program.console;
   TIDEMARK_TRY(check(options));
   const auto benchmark = make_case(options, console);
-  if (!benchmark) return tl::unexpected<Error>(benchmark.error());
+  if (!benchmark) return pass_on(benchmark);
   if (console.interrupted()) return cancelled_error();
   solver::ExecutorOptions executor_options = options.solver.executor_options();
   executor_options.time_paging = true;
@@ -205,7 +205,7 @@ Status run(Program& program, const BenchOptions& options) {
   solver::Executor& solver = **executor;
   TIDEMARK_TRY(begin(solver, *benchmark));
   const auto stages = measure_stages(solver, options.steps.value_or(kDefaultSteps), console);
-  if (!stages) return tl::unexpected<Error>(stages.error());
+  if (!stages) return pass_on(stages);
 
   const solver::MemoryReport memory = solver.memory();
   const double active = 1.0 / std::max(1e-12, steps_per_second((*stages)[2].report));

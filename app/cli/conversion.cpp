@@ -53,7 +53,7 @@ Status Conversion::load_source(const Progress& progress) {
   StudyInput source = options_.study;
   source.path = options_.source;
   const auto chosen = find_study(source, progress);
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (!chosen) return pass_on(chosen);
   grid_ = chosen->series.geometry;
   source_files_ = imaging::dicom_files_of(chosen->series);
   source_archive_ = chosen->series.archive;
@@ -182,7 +182,7 @@ Status Conversion::write_each(const fs::path& like, const Progress& progress, Ou
   for (std::size_t n = 0; n < each_.size(); ++n) {
     if (progress.cancelled()) return cancelled_error();
     const auto mesh = document::mesh_of(geometry(), segments_.list[n]);
-    if (!mesh) return tl::unexpected<Error>(mesh.error());
+    if (!mesh) return pass_on(mesh);
     TIDEMARK_TRY(
         outputs.stage(each_[n], [&](const fs::path& name) { return imaging::write_mesh(*mesh, name); }));
   }

@@ -89,7 +89,7 @@ Status run(Program& program, const DistanceOptions& options) {
   Outputs outputs;
   TIDEMARK_TRY(check(options, outputs));
   const auto loaded = imaging::load_any_mask(options.mask, nullptr, console.progress());
-  if (!loaded) return tl::unexpected<Error>(loaded.error());
+  if (!loaded) return pass_on(loaded);
   const Mask& mask = loaded->mask;
   if (console.interrupted()) return cancelled_error();
   auto executor = solver::make_executor(options.solver.kind.value_or(solver::ExecutorKind::automatic),
@@ -99,7 +99,7 @@ Status run(Program& program, const DistanceOptions& options) {
   solver::Executor& solver = **executor;
   TIDEMARK_TRY(solver.restore(solver::distance_transform(mask, solver.band())));
   const auto report = solver.advance(solver::Advance{kMostSteps, true, console.progress()});
-  if (!report) return tl::unexpected<Error>(report.error());
+  if (!report) return pass_on(report);
   if (console.interrupted()) return cancelled_error();
 
   auto phi = solver.snapshot();

@@ -100,9 +100,9 @@ Result<solver::SpeedSetting> setting_of(const DriveOptions& options) {
 Result<std::shared_ptr<const solver::Strokes>> read_examples(const std::string& file, const Geometry& grid,
                                                              Console& console) {
   const auto labels = imaging::load_volume(file, {}, console.progress());
-  if (!labels) return tl::unexpected<Error>(labels.error());
+  if (!labels) return pass_on(labels);
   const auto values = imaging::onto_grid(*labels, grid, file);
-  if (!values) return tl::unexpected<Error>(values.error());
+  if (!values) return pass_on(values);
   auto strokes = std::make_shared<solver::Strokes>();
   for (std::size_t i = 0; i < values->size(); ++i) {
     const float label = (*values)[i];
@@ -123,7 +123,7 @@ Status add_mask(solver::Constraints& constraints, const std::optional<std::strin
                 solver::Constraint what, const Geometry& grid, Console& console) {
   if (!file) return {};
   const auto mask = imaging::load_any_mask(*file, &grid, console.progress());
-  if (!mask) return tl::unexpected<Error>(mask.error());
+  if (!mask) return pass_on(mask);
   for (const std::string& change : mask->changes) console.warn(*file + ": " + change);
   constraints.set(mask->mask, what);
   return {};
@@ -200,7 +200,7 @@ void add_within_option(CLI::App& app, DriveOptions& options) {
 
 Status check(const DriveOptions& options, bool starts_from_mask) {
   const auto setting = setting_of(options);
-  if (!setting) return tl::unexpected<Error>(setting.error());
+  if (!setting) return pass_on(setting);
   if (uses(options, "examples") != options.examples.has_value()) {
     return fail(ErrorKind::usage, "--speed examples and --examples need each other");
   }

@@ -82,7 +82,7 @@ class Camera {
     const double share = static_cast<double>(shot_) / static_cast<double>(frames_);
     scene_.views.volume.camera.azimuth = azimuth_ + options_.turn.value_or(0.0) * share;
     const auto picture = draw(scene_, options_.render, progress);
-    if (!picture) return tl::unexpected<Error>(picture.error());
+    if (!picture) return pass_on(picture);
     ++shot_;
     return file_.add(picture->pixels);
   }

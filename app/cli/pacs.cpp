@@ -24,10 +24,10 @@ constexpr const char* kExamples =
 
 Status run_echo(Program& program, const ServerChoice& choice) {
   const auto chosen = choice.choose();
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (!chosen) return pass_on(chosen);
   const imaging::PacsServer& server = chosen->server;
   const auto seconds = imaging::pacs_echo(server, program.console.progress());
-  if (!seconds) return tl::unexpected<Error>(seconds.error());
+  if (!seconds) return pass_on(seconds);
   program.console.say("{} ({}:{}, {}) answers in {:.0f} ms", server.name, server.host, server.port,
                       server.ae_title, *seconds * 1000.0);
   Json object;
@@ -45,7 +45,7 @@ Status run_echo(Program& program, const ServerChoice& choice) {
 Result<ServerChoice::Chosen> ServerChoice::choose() const {
   const auto configuration = imaging::read_pacs_configuration(
       file.empty() ? imaging::pacs_configuration_file() : std::filesystem::path(file));
-  if (!configuration) return tl::unexpected<Error>(configuration.error());
+  if (!configuration) return pass_on(configuration);
   auto chosen = configuration->server(server);
   if (!chosen) return pass_on(chosen);
   return Chosen{std::move(*chosen), configuration->limits};

@@ -77,7 +77,7 @@ void say(Console& console, const imaging::PacsSeries& series) {
 
 template <class Entry>
 Status report(Console& console, const char* key, const Result<imaging::Found<Entry>>& found) {
-  if (!found) return tl::unexpected<Error>(found.error());
+  if (!found) return pass_on(found);
   Json object;
   object[key] = Json::array();
   for (const Entry& entry : found->entries) {
@@ -96,7 +96,7 @@ Status report(Console& console, const char* key, const Result<imaging::Found<Ent
 
 Status run(Program& program, const FindOptions& options) {
   const auto chosen = options.choice.choose();
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (!chosen) return pass_on(chosen);
   Console& console = program.console;
   const imaging::StudyQuery& query = options.studies;
   if (options.study.empty()) {

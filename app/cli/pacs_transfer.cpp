@@ -45,11 +45,11 @@ struct SendOptions {
 
 Status run_get(Program& program, const GetOptions& options) {
   const auto chosen = options.choice.choose();
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (!chosen) return pass_on(chosen);
   Console& console = program.console;
   const auto retrieved =
       imaging::retrieve(chosen->server, options.request, chosen->limits, console.progress());
-  if (!retrieved) return tl::unexpected<Error>(retrieved.error());
+  if (!retrieved) return pass_on(retrieved);
   const std::string folder = options.request.folder.string();
   console.say("Wrote      {}: {} objects, {:.1f} MB", folder, retrieved->files.size(),
               static_cast<double>(retrieved->bytes) / 1e6);
@@ -95,12 +95,12 @@ Result<std::vector<fs::path>> files_of(const std::vector<std::string>& paths) {
 
 Status run_send(Program& program, const SendOptions& options) {
   const auto chosen = options.choice.choose();
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (!chosen) return pass_on(chosen);
   const auto files = files_of(options.paths);
-  if (!files) return tl::unexpected<Error>(files.error());
+  if (!files) return pass_on(files);
   Console& console = program.console;
   const auto sent = imaging::send_files(chosen->server, *files, console.progress());
-  if (!sent) return tl::unexpected<Error>(sent.error());
+  if (!sent) return pass_on(sent);
   console.say("Sent       {} objects, {:.1f} MB", sent->objects, static_cast<double>(sent->bytes) / 1e6);
   Json object;
   object["objects"] = sent->objects;

@@ -95,7 +95,7 @@ Status run(Program& program, const PhantomArguments& arguments) {
   }
   if (arguments.random_seed) options.random_seed = static_cast<std::uint64_t>(*arguments.random_seed);
   const auto phantom = imaging::make_phantom(arguments.kind, options, console.progress());
-  if (!phantom) return tl::unexpected<Error>(phantom.error());
+  if (!phantom) return pass_on(phantom);
   if (console.interrupted()) return cancelled_error();
   const std::filesystem::path folder = arguments.out;
   TIDEMARK_TRY(write_or_clean_up(*phantom, folder, console.progress()));

@@ -59,7 +59,7 @@ Result<std::size_t> GivenFiles::file_of(const document::CaseImage& wanted, std::
 Result<std::shared_ptr<const document::CaseImage>> GivenFiles::image_for(const document::CaseImage& wanted,
                                                                          std::size_t place) {
   const auto file = file_of(wanted, place);
-  if (!file) return tl::unexpected<Error>(file.error());
+  if (!file) return pass_on(file);
   const document::CaseImage& read = images_[*file];
   for (const auto& known : placed_) {
     if (known->volume == read.volume && known->name == wanted.name && known->to_case == wanted.to_case)

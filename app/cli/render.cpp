@@ -46,7 +46,7 @@ Status run(Program& program, const RenderOptions& options) {
   auto scene = make_scene(options, std::move(*views), console);
   if (!scene) return pass_on(scene);
   const auto picture = draw(*scene, options, console.progress());
-  if (!picture) return tl::unexpected<Error>(picture.error());
+  if (!picture) return pass_on(picture);
   if (is_even(*picture)) console.warn("the picture shows nothing but its background");
   const auto write = [&](const std::filesystem::path& name) {
     return imaging::write_png_file(picture->width, picture->height, picture->pixels, name);

@@ -89,7 +89,7 @@ Result<renderer::ClipPlane> clip_plane(const RenderOptions& options) {
   const double length = glm::length(normal);
   if (length <= 0.0) return fail(ErrorKind::usage, "--clip: the plane needs a normal");
   const auto clipped = meaning("--clipped", options.clipped, kClipped);
-  if (!clipped) return tl::unexpected<Error>(clipped.error());
+  if (!clipped) return pass_on(clipped);
   renderer::ClipPlane plane;
   plane.normal = normal / length;
   plane.offset_mm = c[3] / length;
@@ -111,10 +111,10 @@ Result<renderer::TransferFunction> transfer_function(const RenderOptions& option
 Result<renderer::VolumeView> volume_view(const RenderOptions& options) {
   renderer::VolumeView view;
   const auto mode = meaning("--mode", options.mode, kModes);
-  if (!mode) return tl::unexpected<Error>(mode.error());
+  if (!mode) return pass_on(mode);
   view.mode = *mode;
   const auto camera = parse_camera(options.camera);
-  if (!camera) return tl::unexpected<Error>(camera.error());
+  if (!camera) return pass_on(camera);
   view.camera = *camera;
   if (!options.preset.empty() || !options.transfer_function.empty()) {
     auto function = transfer_function(options);
@@ -122,10 +122,10 @@ Result<renderer::VolumeView> volume_view(const RenderOptions& options) {
     view.source = std::move(*function);
   }
   const auto region = meaning("--roi", options.region, kRegions);
-  if (!region) return tl::unexpected<Error>(region.error());
+  if (!region) return pass_on(region);
   view.region = *region;
   const auto colouring = meaning("--colour", options.colour, kColourings);
-  if (!colouring) return tl::unexpected<Error>(colouring.error());
+  if (!colouring) return pass_on(colouring);
   view.colouring = *colouring;
   view.surface = has_surface(options);
   if (options.opacity) view.surface_colour.a = static_cast<float>(*options.opacity);
@@ -133,7 +133,7 @@ Result<renderer::VolumeView> volume_view(const RenderOptions& options) {
   TIDEMARK_TRY(meaning("--clipped", options.clipped, kClipped));
   if (options.clip) {
     const auto plane = clip_plane(options);
-    if (!plane) return tl::unexpected<Error>(plane.error());
+    if (!plane) return pass_on(plane);
     view.clip = *plane;
   }
   return view;
@@ -153,7 +153,7 @@ Result<renderer::SliceView> slice_view(const RenderOptions& options) {
   if (options.view == "speed") view.content = renderer::SliceContent::speed;
   if (options.view == "pages") view.content = renderer::SliceContent::pages;
   const auto term = meaning("--term", options.term, kTerms);
-  if (!term) return tl::unexpected<Error>(term.error());
+  if (!term) return pass_on(term);
   view.term = *term;
   if (options.view == "doubt") {
     view.content = renderer::SliceContent::speed;
@@ -226,11 +226,11 @@ bool has_speed(const RenderOptions& options) {
 Result<Views> views_of(const RenderOptions& options) {
   TIDEMARK_TRY(check(options));
   const auto size = parse_size(options.size);
-  if (!size) return tl::unexpected<Error>(size.error());
+  if (!size) return pass_on(size);
   const auto volume = volume_view(options);
-  if (!volume) return tl::unexpected<Error>(volume.error());
+  if (!volume) return pass_on(volume);
   const auto slice = slice_view(options);
-  if (!slice) return tl::unexpected<Error>(slice.error());
+  if (!slice) return pass_on(slice);
   solver::Parameters parameters;
   if (options.target) parameters.target = *options.target;
   if (options.range) parameters.range = *options.range;

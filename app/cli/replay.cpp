@@ -69,7 +69,7 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   ResultWriter writer(arguments.results, console);
   TIDEMARK_TRY(check(arguments, writer));
   auto recipe = document::Recipe::load(arguments.recipe);
-  if (!recipe) return tl::unexpected<Error>(recipe.error());
+  if (!recipe) return pass_on(recipe);
   auto study = load_study(arguments.study, console.progress(), recipe->source.policy);
   if (!study) return pass_on(study);
   const auto volume = std::make_shared<const Volume>(std::move(study->volume));

@@ -150,7 +150,7 @@ Status ResultWriter::stage_out(const RunResults& results) {
     const FileForm form = form_of(file);
     if (form == FileForm::recipe) {
       const auto text = results.recipe.to_text();
-      if (!text) return tl::unexpected<Error>(text.error());
+      if (!text) return pass_on(text);
       TIDEMARK_TRY(stage_text(file, *text));
       continue;
     }
@@ -185,7 +185,7 @@ Status ResultWriter::stage(const RunResults& results) {
   }
   if (!options_.picture.empty()) {
     const auto picture = draw(results);
-    if (!picture) return tl::unexpected<Error>(picture.error());
+    if (!picture) return pass_on(picture);
     const auto write_picture = [&](const std::filesystem::path& name) {
       return imaging::write_png_file(picture->width, picture->height, picture->pixels, name);
     };
@@ -197,7 +197,7 @@ Status ResultWriter::stage(const RunResults& results) {
   }
   if (options_.recipe.empty()) return {};
   const auto text = results.recipe.to_text();
-  if (!text) return tl::unexpected<Error>(text.error());
+  if (!text) return pass_on(text);
   return stage_text(options_.recipe, *text);
 }
 

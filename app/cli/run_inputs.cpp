@@ -119,7 +119,7 @@ Status Inputs::suggest() {
   std::optional<Index3> looked_at;
   if (!options_.start.seeds.empty()) {
     const auto sphere = options_.start.seeds.front().resolve(results_.source->geometry);
-    if (!sphere) return tl::unexpected<Error>(sphere.error());
+    if (!sphere) return pass_on(sphere);
     const glm::dvec3 voxel = results_.source->geometry.to_voxel(sphere->centre_mm);
     looked_at = glm::clamp(Index3(glm::round(voxel)), Index3(0), results_.source->geometry.size - Index3(1));
   }

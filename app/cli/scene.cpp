@@ -22,13 +22,13 @@ Result<solver::Field> surface_of(const RenderOptions& options, const Volume& sou
   const double band = solver::default_band(source.geometry);
   if (!options.mask.empty()) {
     const auto loaded = imaging::load_any_mask(options.mask, &source.geometry, console.progress());
-    if (!loaded) return tl::unexpected<Error>(loaded.error());
+    if (!loaded) return pass_on(loaded);
     for (const std::string& change : loaded->changes) console.warn(options.mask + ": " + change);
     return solver::distance_transform(loaded->mask, band);
   }
   if (!options.phi.empty()) {
     const auto phi = imaging::load_volume(options.phi, {}, console.progress());
-    if (!phi) return tl::unexpected<Error>(phi.error());
+    if (!phi) return pass_on(phi);
     auto values = imaging::onto_grid(*phi, source.geometry, options.phi);
     if (!values) return pass_on(values);
     const auto [low, high] = phi->range();
@@ -48,9 +48,9 @@ WindowLevel window_of(const RenderOptions& options, const Volume& source) {
 Result<std::vector<std::uint8_t>> load_labels(const std::string& file, const Geometry& grid,
                                               Console& console) {
   const auto volume = imaging::load_volume(file, {}, console.progress());
-  if (!volume) return tl::unexpected<Error>(volume.error());
+  if (!volume) return pass_on(volume);
   const auto values = imaging::onto_grid(*volume, grid, file);
-  if (!values) return tl::unexpected<Error>(values.error());
+  if (!values) return pass_on(values);
   std::map<float, std::uint8_t> numbers;
   for (const float value : *values) {
     if (value == 0.0F || numbers.contains(value)) continue;
@@ -75,7 +75,7 @@ Status show_drive(renderer::Renderer& renderer, const DriveOptions& options,
                   const std::shared_ptr<const Volume>& source, const solver::Parameters& parameters,
                   const solver::Field& phi, Console& console) {
   const auto drive = make_drive(options, source->geometry, console);
-  if (!drive) return tl::unexpected<Error>(drive.error());
+  if (!drive) return pass_on(drive);
   if (*drive == nullptr) return {};
   auto speed = document::make_speed(**drive, source, parameters, console.progress());
   if (!speed) return pass_on(speed);
@@ -111,7 +111,7 @@ bool goes_by_surface(const RenderOptions& options) {
 Result<Scene> make_scene(const RenderOptions& options, Views views, Console& console,
                          const imaging::GridPolicy& otherwise) {
   const auto chosen = choose_renderer(options.renderer);
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (!chosen) return pass_on(chosen);
   auto loaded = load_study(options.study, console.progress(), otherwise);
   if (!loaded) return pass_on(loaded);
   Scene scene{std::make_shared<const Volume>(std::move(loaded->volume)), std::move(views), nullptr};
@@ -129,7 +129,7 @@ Result<Scene> make_scene(const RenderOptions& options, Views views, Console& con
   TIDEMARK_TRY(show_drive(*scene.renderer, options.drive, scene.source, parameters, *phi, console));
   if (!options.labels.empty()) {
     const auto labels = load_labels(options.labels, scene.source->geometry, console);
-    if (!labels) return tl::unexpected<Error>(labels.error());
+    if (!labels) return pass_on(labels);
     TIDEMARK_TRY(scene.renderer->set_labels(*labels));
   }
   place(scene, options, *phi);

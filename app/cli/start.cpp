@@ -25,7 +25,7 @@ Result<document::MaskStart> read_mask(const std::string& file, const Geometry& g
 Result<document::FieldStart> read_phi(const std::string& file, const Geometry& grid, double band,
                                       Console& console) {
   const auto volume = imaging::load_volume(file, {}, console.progress());
-  if (!volume) return tl::unexpected<Error>(volume.error());
+  if (!volume) return pass_on(volume);
   auto values = imaging::onto_grid(*volume, grid, file);
   if (!values) return pass_on(values);
   return document::FieldStart{
@@ -38,7 +38,7 @@ Result<std::vector<solver::Sphere>> resolve(const std::vector<SphereArgument>& a
   std::vector<solver::Sphere> spheres;
   for (const SphereArgument& argument : arguments) {
     const auto sphere = argument.resolve(grid);
-    if (!sphere) return tl::unexpected<Error>(sphere.error());
+    if (!sphere) return pass_on(sphere);
     spheres.push_back(*sphere);
   }
   return spheres;

@@ -43,7 +43,7 @@ void add_grid_options(CLI::App& app, StudyInput& study) {
 Result<imaging::ChosenSeries> find_study(const StudyInput& study, const Progress& progress,
                                          const imaging::GridPolicy& otherwise) {
   const auto catalogue = imaging::find_series(study.path, progress, study.policy(otherwise));
-  if (!catalogue) return tl::unexpected<Error>(catalogue.error());
+  if (!catalogue) return pass_on(catalogue);
   auto chosen = imaging::choose_series(*catalogue, study.series, study.path);
   if (!chosen && imaging::find_fillable(*catalogue, study.series) != nullptr) {
     chosen.error().message += "; --gaps fill interpolates";

@@ -101,7 +101,7 @@ Status SweepCommand::run() {
   truth_ = std::move(*truth);
   const Stopwatch watch;
   const auto sweep = compute();
-  if (!sweep) return tl::unexpected<Error>(sweep.error());
+  if (!sweep) return pass_on(sweep);
   const double seconds = watch.seconds();
   TIDEMARK_TRY(write(*sweep));
   say(*sweep, seconds);
@@ -151,7 +151,7 @@ Result<document::Sweep> SweepCommand::compute() {
     return fail(good.error().kind, "--over: {}", good.error().message);
   }
   const auto start = document::sweep_start(recipe, inputs_.source, console_.progress());
-  if (!start) return tl::unexpected<Error>(start.error());
+  if (!start) return pass_on(start);
   return document::run_sweep(*start, sweep, console_.progress());
 }
 

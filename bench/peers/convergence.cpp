@@ -84,7 +84,7 @@ Status measure_convergence(const Problem& problem, const Settings& settings, Rep
   add_goals(problem, by_name, report);
   if (wanted(settings, "host")) {
     const auto percent = converged_step_percent(problem, settings.rounds);
-    if (!percent) return tl::unexpected<Error>(percent.error());
+    if (!percent) return pass_on(percent);
     report.at_most(problem.name + ": a converged step in % of an active one", *percent, 2, 2);
   }
   return {};

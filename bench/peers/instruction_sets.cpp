@@ -20,7 +20,7 @@ Status measure_instruction_sets(const Problem& problem, Report& report) {
       continue;
     }
     if (!run) {
-      status = tl::unexpected<Error>(run.error());
+      status = pass_on(run);
       break;
     }
     results.emplace_back(name, std::move(run->result));

@@ -43,7 +43,7 @@ Status print_memory_of(const Problem& problem, const std::string& contestant) {
     std::ofstream("/proc/self/clear_refs") << "5\n";
     const std::int64_t before = process_bytes("VmRSS:");
     auto made = kind.make(problem);
-    if (!made) return tl::unexpected<Error>(made.error());
+    if (!made) return pass_on(made);
     TIDEMARK_TRY((*made)->advance(steps_of(problem)));
     const std::int64_t peak = process_bytes("VmHWM:");
     fmt::print("{}\n", peak - before);
@@ -59,7 +59,7 @@ Status measure_memory(const Problem& problem, const Settings& settings, Report& 
   for (const ContestantKind& kind : all_contestants()) {
     if (!wanted(settings, kind.name)) continue;
     const auto peak = peak_of(problem, settings, kind.name);
-    if (!peak) return tl::unexpected<Error>(peak.error());
+    if (!peak) return pass_on(peak);
     rows.push_back({text(kind.description), number(*peak / kMega, 1), number(*peak / volume_bytes, 2)});
   }
   report.table(
@@ -67,7 +67,7 @@ Status measure_memory(const Problem& problem, const Settings& settings, Report& 
       {"contestant", "MB", "dense float volumes"}, rows);
 
   auto ours = tidemark_host(true).make(problem);
-  if (!ours) return tl::unexpected<Error>(ours.error());
+  if (!ours) return pass_on(ours);
   TIDEMARK_TRY((*ours)->advance(steps_of(problem)));
   const solver::MemoryReport memory = (*ours)->executor()->memory();
   const Index3 shape = memory.page_shape;

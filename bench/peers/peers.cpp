@@ -43,7 +43,7 @@ Status measure(const Arguments& arguments, Report& report) {
   for (const char* name : {"tumour", "cortex"}) {
     if (!arguments.which.empty() && arguments.which != name) continue;
     const auto problem = make_problem(name);
-    if (!problem) return tl::unexpected<Error>(problem.error());
+    if (!problem) return pass_on(problem);
     if (!arguments.memory_of.empty()) return print_memory_of(*problem, arguments.memory_of);
     if (arguments.simd) {
       TIDEMARK_TRY(measure_instruction_sets(*problem, report));

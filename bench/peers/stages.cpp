@@ -60,7 +60,7 @@ Status run_round(const Problem& problem, Entry& entry) {
   std::array<double, 3> resident{};
   for (int repeat = 0; repeat < kMostRepeats; ++repeat) {
     auto contestant = entry.kind.make(problem);
-    if (!contestant) return tl::unexpected<Error>(contestant.error());
+    if (!contestant) return pass_on(contestant);
     std::int64_t done = 0;
     for (std::size_t stage = 0; stage < kStages.size(); ++stage) {
       const Window window = window_of(stage, entry.total);

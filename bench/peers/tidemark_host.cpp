@@ -18,7 +18,7 @@ Result<std::unique_ptr<solver::Executor>> start_executor(const Problem& problem,
   const Status started =
       problem.seed ? (*executor)->paint(*problem.seed, solver::Brush::add)
                    : (*executor)->restore(solver::distance_transform(*problem.start, (*executor)->band()));
-  if (!started) return tl::unexpected<Error>(started.error());
+  if (!started) return pass_on(started);
   return executor;
 }
 

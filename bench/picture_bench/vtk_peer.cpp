@@ -115,7 +115,7 @@ Result<VtkPeer::Drawing> VtkPeer::draw(const renderer::TransferFunction& functio
                          {"half_height", half_height_mm},
                          {"file", file.string()}};
   const auto answer = ask(command.dump() + "\n");
-  if (!answer) return tl::unexpected<Error>(answer.error());
+  if (!answer) return pass_on(answer);
   const nlohmann::json times = nlohmann::json::parse(*answer);
   return Drawing{times["seconds"], times["first"]};
 }

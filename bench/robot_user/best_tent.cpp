@@ -67,9 +67,9 @@ Result<double> best_tent(const std::shared_ptr<const Volume>& source, const Mask
     TIDEMARK_TRY(
         (*executor)->paint(solver::sphere_at_voxel(grid, glm::dvec3(seed), 4.0 * unit), solver::Brush::add));
     const auto report = (*executor)->advance({.steps = steps, .until_converged = true});
-    if (!report) return tl::unexpected<Error>(report.error());
+    if (!report) return pass_on(report);
     const auto phi = (*executor)->snapshot();
-    if (!phi) return tl::unexpected<Error>(phi.error());
+    if (!phi) return pass_on(phi);
     best = std::max(best, dice(phi->mask(), truth));
   }
   return best;

@@ -107,7 +107,7 @@ class LevelSetSurface final : public Surface {
                                     solver::Brush::add));
     }
     const auto report = executor_->advance({.steps = steps_, .until_converged = true});
-    if (!report) return tl::unexpected<Error>(report.error());
+    if (!report) return pass_on(report);
     auto phi = executor_->snapshot();
     if (!phi) return pass_on(phi);
     found_ = phi->mask();
@@ -132,7 +132,7 @@ Result<Outcome> segment(const RobotCase& robot_case, const Settings& settings) {
   Outcome outcome;
   const auto tent = best_tent(robot_case.images.front(), robot_case.truth, robot.inside().front(),
                               settings.alpha, 5 * settings.steps);
-  if (!tent) return tl::unexpected<Error>(tent.error());
+  if (!tent) return pass_on(tent);
   outcome.tent = *tent;
   // Kept until the next one is there, so that both share their images' pyramids.
   std::shared_ptr<const solver::ExamplesSpeed> function;

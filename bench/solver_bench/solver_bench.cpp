@@ -93,7 +93,7 @@ std::int64_t needed_voxels(const solver::Field& phi) {
 Result<solver::Field> measure_executor(const std::shared_ptr<const Volume>& source, const Settings& settings,
                                        const std::string& name) {
   const auto kind = kind_of(name);
-  if (!kind) return tl::unexpected<Error>(kind.error());
+  if (!kind) return pass_on(kind);
   solver::ExecutorOptions options;
   options.threads = settings.threads;
   options.skip_quiet_pages = !settings.all_pages;
@@ -101,7 +101,7 @@ Result<solver::Field> measure_executor(const std::shared_ptr<const Volume>& sour
   options.memory_budget_bytes = std::int64_t{64} << 30;
   if (settings.page_side == 16) options.page_shape = {16, 16, 1};
   auto executor = solver::make_executor(*kind, source, parameters(), options);
-  if (!executor) return tl::unexpected<Error>(executor.error());
+  if (!executor) return pass_on(executor);
   const double unit = static_cast<double>(settings.size) / 256.0;
   const solver::Sphere seed =
       solver::sphere_at_voxel(source->geometry, glm::dvec3(128.0 * unit), 10.0 * unit);
@@ -113,7 +113,7 @@ Result<solver::Field> measure_executor(const std::shared_ptr<const Volume>& sour
   const std::int64_t stage = std::max<std::int64_t>(settings.steps / 4, 1);
   for (int i = 1; i <= 4; ++i) {
     auto run = (*executor)->advance({.steps = stage});
-    if (!run) return tl::unexpected<Error>(run.error());
+    if (!run) return pass_on(run);
     print_run(fmt::format("quarter {}", i), *run, **executor);
   }
   auto phi = (*executor)->snapshot();
@@ -122,9 +122,9 @@ Result<solver::Field> measure_executor(const std::shared_ptr<const Volume>& sour
   const Index3 shape = memory.page_shape;
   const auto resident = static_cast<double>(memory.peak_resident_pages * shape.x * shape.y * shape.z);
   auto rest = (*executor)->advance({.steps = 20 * settings.steps});
-  if (!rest) return tl::unexpected<Error>(rest.error());
+  if (!rest) return pass_on(rest);
   auto converged = (*executor)->advance({.steps = settings.steps});
-  if (!converged) return tl::unexpected<Error>(converged.error());
+  if (!converged) return pass_on(converged);
   print_run("at rest", *converged, **executor);
   const solver::SurfaceStatistics surface = solver::measure(*phi);
   fmt::print("  processed/needed voxels {:.2f}\n", static_cast<double>(phi->resident_pages()) *
@@ -143,7 +143,7 @@ Result<solver::Field> measure_executor(const std::shared_ptr<const Volume>& sour
 Status measure_spheres(const std::shared_ptr<const Volume>& source, const Settings& settings,
                        const std::string& name) {
   const auto kind = kind_of(name);
-  if (!kind) return tl::unexpected<Error>(kind.error());
+  if (!kind) return pass_on(kind);
   fmt::print("{}, spheres\n  {:>8} {:>16} {:>12} {:>14} {:>18}\n", name, "radius", "resident voxels",
              "us/step", "state bytes", "processed/needed");
   std::vector<glm::dvec3> points;  // resident voxels, seconds a step, bytes
@@ -154,16 +154,16 @@ Status measure_spheres(const std::shared_ptr<const Volume>& source, const Settin
     options.memory_budget_bytes = std::int64_t{64} << 30;
     if (settings.page_side == 16) options.page_shape = {16, 16, 1};
     auto executor = solver::make_executor(*kind, source, parameters(), options);
-    if (!executor) return tl::unexpected<Error>(executor.error());
+    if (!executor) return pass_on(executor);
     const double radius = part * static_cast<double>(settings.size);
     const solver::Sphere ball =
         solver::sphere_at_voxel(source->geometry, 0.5 * glm::dvec3(source->geometry.size), radius);
     TIDEMARK_TRY((*executor)->paint(ball, solver::Brush::add));
     TIDEMARK_TRY((*executor)->advance({.steps = 2}));
     const auto run = (*executor)->advance({.steps = std::max<std::int64_t>(settings.steps / 10, 1)});
-    if (!run) return tl::unexpected<Error>(run.error());
+    if (!run) return pass_on(run);
     const auto phi = (*executor)->snapshot();
-    if (!phi) return tl::unexpected<Error>(phi.error());
+    if (!phi) return pass_on(phi);
     const solver::MemoryReport memory = (*executor)->memory();
     const auto resident = static_cast<double>(memory.resident_pages * memory.page_shape.x *
                                               memory.page_shape.y * memory.page_shape.z);
@@ -191,7 +191,7 @@ Status measure_dense(const std::shared_ptr<const Volume>& source, const Settings
   const solver::Field start = solver::Field::empty(source->geometry, solver::default_band(source->geometry));
   const std::int64_t steps = std::clamp<std::int64_t>(settings.steps / 20, 3, 100);
   const auto run = bench::run_dense_gl(*source, parameters(), start, steps);
-  if (!run) return tl::unexpected<Error>(run.error());
+  if (!run) return pass_on(run);
   const double steps_per_second = static_cast<double>(run->steps) / run->seconds;
   fmt::print("dense, the whole volume on OpenGL\n  {:>8.1f} steps/s {:>12.1f} M updates/s\n",
              steps_per_second, steps_per_second * static_cast<double>(source->geometry.voxel_count()) / 1e6);

@@ -157,7 +157,7 @@ class Unpacker {
 
   Status unpack_one(std::size_t entry, const Progress& progress) {
     const auto target = target_of(entry);
-    if (!target) return tl::unexpected<Error>(target.error());
+    if (!target) return pass_on(target);
     const Status no_room = fail(ErrorKind::capability, "{}: there is no room to unpack it", file_.string());
     std::ofstream out(*target, std::ios::binary);
     Status unpacked =

@@ -228,7 +228,7 @@ Status decode_into(const Series& series, const SliceHeader& first, FramePlan& pl
 Result<SliceHeader> first_header(const Series& series, FramePlan& plan) {
   const SliceSource& source = series.sources.front();
   const auto reader = plan.open(plan.work().front());
-  if (!reader) return tl::unexpected<Error>(reader.error());
+  if (!reader) return pass_on(reader);
   const SliceHeader* header = (*reader)->slice(source.frame, source.tile);
   if (header != nullptr) return *header;
   return fail(ErrorKind::input, "{}: is not what it was when its series was listed", source.file.string());
@@ -248,7 +248,7 @@ Result<Volume> load(const Series& series, const Progress& progress) {
   }
   FramePlan plan(series);
   const auto first = first_header(series, plan);
-  if (!first) return tl::unexpected<Error>(first.error());
+  if (!first) return pass_on(first);
 
   Volume volume;
   volume.geometry = series.geometry;

@@ -152,7 +152,7 @@ Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) 
     if (directory) {
       warn_of_missing(*catalogue, file, *directory);
     } else if (directory.error().kind == ErrorKind::cancelled) {
-      return tl::unexpected<Error>(directory.error());
+      return pass_on(directory);
     } else {
       catalogue->skipped.push_back({file, without_path(directory.error().message, file)});
     }
@@ -163,7 +163,7 @@ Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) 
 // The files that a medium's directory names, and no others.
 Result<Catalogue> scan_medium(const fs::path& file, const Progress& progress) {
   const auto directory = read_media_directory(file, progress);
-  if (!directory) return tl::unexpected<Error>(directory.error());
+  if (!directory) return pass_on(directory);
   if (directory->files.empty() && directory->missing.count == 0) {
     return fail(ErrorKind::input, "{}: refers to no files", file.string());
   }

@@ -206,7 +206,7 @@ Series scan_picture(const std::filesystem::path& file) {
 Result<Volume> read_picture(const std::filesystem::path& file, const Progress& progress) {
   progress(0.0, "reading the picture");
   const auto picture = open_picture(file);
-  if (!picture) return tl::unexpected<Error>(picture.error());
+  if (!picture) return pass_on(picture);
   PictureHeader header = (*picture)->header();
   describe(header);
   Volume volume;

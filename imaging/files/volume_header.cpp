@@ -59,7 +59,7 @@ Result<glm::dmat3> checked_direction(const glm::dmat3& stated, const std::string
 Result<Geometry> checked_geometry(const itk::ImageIOBase& io, const std::string& name) {
   Geometry geometry;
   const auto size = checked_size(io, name);
-  if (!size) return tl::unexpected<Error>(size.error());
+  if (!size) return pass_on(size);
   geometry.size = *size;
   glm::dmat3 direction;
   for (unsigned axis = 0; axis < 3; ++axis) {

@@ -43,7 +43,7 @@ std::optional<Scalar> scalar_of(std::uint32_t type) {
 Result<PixelLayout> locate_gipl(const std::filesystem::path& file) {
   const std::string name = file.string();
   const auto header = read_start(file, kHeaderSize);
-  if (!header) return tl::unexpected<Error>(header.error());
+  if (!header) return pass_on(header);
   if (header->size() < kHeaderSize) {
     return fail(ErrorKind::input, "{}: not a GIPL file: {} bytes are too few for its header", name,
                 header->size());

@@ -94,7 +94,7 @@ Status check_compressed_size(const TextHeader& header, const std::string& name, 
 Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
   const std::string name = file.string();
   const auto header = read_meta_header(file);
-  if (!header) return tl::unexpected<Error>(header.error());
+  if (!header) return pass_on(header);
   PixelLayout layout{.file = file, .offset = header->end};
   TIDEMARK_TRY(count_bytes(*header, name, layout));
   TIDEMARK_TRY(require_finite_fields(*header, file,

@@ -207,7 +207,7 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
     return fail(ErrorKind::input, "{}: not a NIfTI file: its header has no 'n+1' magic", name);
   }
   const auto voxels = count_voxels(header, name);
-  if (!voxels) return tl::unexpected<Error>(voxels.error());
+  if (!voxels) return pass_on(voxels);
   const int datatype = header.read<std::int16_t>(70);
   const auto scalar = scalar_of(datatype);
   if (!scalar) return fail(ErrorKind::input, "{}: datatype {} is not a scalar type", name, datatype);

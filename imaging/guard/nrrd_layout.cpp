@@ -116,7 +116,7 @@ Status choose_coding(const TextHeader& header, const std::string& name, PixelLay
 Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
   const std::string name = file.string();
   const auto header = read_nrrd_header(file);
-  if (!header) return tl::unexpected<Error>(header.error());
+  if (!header) return pass_on(header);
   PixelLayout layout{.file = file, .offset = header->end};
   TIDEMARK_TRY(count_bytes(*header, name, layout));
   TIDEMARK_TRY(choose_coding(*header, name, layout));

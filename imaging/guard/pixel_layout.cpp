@@ -70,7 +70,7 @@ template <class Take>
 Status inflate_exactly(const PixelLayout& layout, const Take& take) {
   const std::int64_t expected = layout.prefix + layout.bytes;
   const auto length = inflate_stream(layout.file, layout.offset, expected, take);
-  if (!length) return tl::unexpected<Error>(length.error());
+  if (!length) return pass_on(length);
   if (*length == expected) return {};
   return fail(ErrorKind::input, "{}: the header says {} bytes, the compressed data hold {}{}",
               layout.file.string(), expected, *length > expected ? "more than " : "",

@@ -168,7 +168,7 @@ Status hand_out_inflated(ByteSource& packed, const ZipDirectory::Take& take) {
 
 Status ZipDirectory::read_records(std::int64_t most_entries) {
   const auto extent = find_directory(file_);
-  if (!extent) return tl::unexpected<Error>(extent.error());
+  if (!extent) return pass_on(extent);
   if (extent->records > most_entries) {
     return fail(ErrorKind::input, "has {} entries, more than {}", extent->records, most_entries);
   }

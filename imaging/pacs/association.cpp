@@ -82,7 +82,7 @@ Result<std::unique_ptr<Association>> Association::open(const PacsServer& server,
   const std::string peer = fmt::format("PACS {} ({}:{})", server.name, server.host, server.port);
   const std::chrono::seconds patience(server.timeout_seconds);
   const auto address = resolve_host(server.host, patience, stop);
-  if (!address && address.error().kind == ErrorKind::cancelled) return tl::unexpected<Error>(address.error());
+  if (!address && address.error().kind == ErrorKind::cancelled) return pass_on(address);
   if (!address) return fail(ErrorKind::input, "{}: {}", peer, address.error().message);
 
   for (const Stopwatch stopwatch;;) {
@@ -92,7 +92,7 @@ Result<std::unique_ptr<Association>> Association::open(const PacsServer& server,
     const Status called = association->call(server, *address, proposals, may_try_again);
     if (called) return association;
     if (stop.stop_requested()) return cancelled_error();
-    if (!may_try_again) return tl::unexpected<Error>(called.error());
+    if (!may_try_again) return pass_on(called);
     if (stopwatch.seconds() > server.timeout_seconds) {
       return fail(ErrorKind::input, "{}: does not answer: no connection in {} s", peer,
                   server.timeout_seconds);

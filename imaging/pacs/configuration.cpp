@@ -175,9 +175,9 @@ fs::path pacs_configuration_file() {
 
 Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {
   const auto text = text_of(file);
-  if (!text) return tl::unexpected<Error>(text.error());
+  if (!text) return pass_on(text);
   const auto json = JsonDocument::parse(*text, file.string(), kLimits);
-  if (!json) return tl::unexpected<Error>(json.error());
+  if (!json) return pass_on(json);
   const JsonField root = root_of(*json, file.string());
   root.only({"servers", "limits"});
   PacsConfiguration configuration;
@@ -189,7 +189,7 @@ Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {
     configuration.servers.push_back(std::move(server));
   }
   if (root.has("limits")) configuration.limits = read_limits(root.at("limits"));
-  if (!root.good()) return tl::unexpected<Error>(root.status().error());
+  if (!root.good()) return pass_on(root.status());
   return configuration;
 }
 

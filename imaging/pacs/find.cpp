@@ -166,7 +166,7 @@ Result<Found<Entry>> collect(const PacsServer& server, Question& question, const
         return true;
       },
       progress);
-  if (!more) return tl::unexpected<Error>(more.error());
+  if (!more) return pass_on(more);
   found.more = *more;
   return found;
 }

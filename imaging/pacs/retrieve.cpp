@@ -51,7 +51,7 @@ Result<Retrieved> retrieve_into_folder(const PacsServer& server, const RetrieveR
                            ? retrieve_by_get(server, request, limits, **retrieval_folder, progress.stop)
                            : retrieve_by_move(server, request, limits, **retrieval_folder, progress.stop);
   if (progress.cancelled()) return cancelled_error();
-  if (!missing) return tl::unexpected<Error>(missing.error());
+  if (!missing) return pass_on(missing);
   return (*retrieval_folder)->keep(*missing);
 }
 

@@ -35,14 +35,14 @@ Result<std::int64_t> retrieve_by_get(const PacsServer& server, const RetrieveReq
   for (ResponseReader responses(association, retrieval_folder);;) {
     message = {};
     const auto received = association.receive(message);
-    if (!received) return tl::unexpected<Error>(received.error());
+    if (!received) return pass_on(received);
     if (message.CommandField == DIMSE_C_STORE_RQ) {
       Status taken = answer_storage_request(association, *received, message, retrieval_folder, limits);
       if (!taken) return pass_on(taken);
       continue;
     }
     const auto last = responses.read(message);
-    if (!last) return tl::unexpected<Error>(last.error());
+    if (!last) return pass_on(last);
     if (!*last) continue;
     association.release();
     return responses.missing();

@@ -27,9 +27,9 @@ Result<std::int64_t> move(Association& association, const Proposal& proposal, co
     message = {};
     const auto received = association.receive(message);
     TIDEMARK_TRY(receiver.trouble());
-    if (!received) return tl::unexpected<Error>(received.error());
+    if (!received) return pass_on(received);
     const auto last = responses.read(message);
-    if (!last) return tl::unexpected<Error>(last.error());
+    if (!last) return pass_on(last);
     if (!*last) continue;
     association.release();
     return responses.missing();

@@ -90,7 +90,7 @@ Result<std::uint16_t> send_object(Association& association, int context, const O
   TIDEMARK_TRY(association.send(context, message, &object));
   message = {};
   const auto answered = association.receive(message);
-  if (!answered) return tl::unexpected<Error>(answered.error());
+  if (!answered) return pass_on(answered);
   if (message.CommandField != DIMSE_C_STORE_RSP || message.msg.CStoreRSP.MessageIDBeingRespondedTo != id) {
     return fail(ErrorKind::input, "{}: answers something that was not asked", association.watch().peer());
   }
@@ -113,7 +113,7 @@ Result<std::string> send_one(Association& association, const Outgoing& one, std:
   if (!object) return without_path(object.error().message, one.file);
   if (object->identity != one.identity) return std::string("it is not what it was a moment ago");
   const auto status = send_object(association, context, one.identity, object->parsed.dataset());
-  if (!status) return tl::unexpected<Error>(status.error());
+  if (!status) return pass_on(status);
   if (*status == STATUS_Success || DICOM_WARNING_STATUS(*status)) {
     bytes += object->parsed.bytes().size();
     return std::string();
@@ -126,10 +126,10 @@ Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& fil
   TIDEMARK_TRY(set_up_network());
   Sent sent;
   const auto outgoing = look_into(files, sent, progress);
-  if (!outgoing) return tl::unexpected<Error>(outgoing.error());
+  if (!outgoing) return pass_on(outgoing);
   if (outgoing->empty()) return sent;
   const auto proposals = proposals_for(*outgoing);
-  if (!proposals) return tl::unexpected<Error>(proposals.error());
+  if (!proposals) return pass_on(proposals);
   auto opened = Association::open(server, *proposals, progress.stop);
   if (!opened) return pass_on(opened);
   Association& association = **opened;

@@ -71,10 +71,10 @@ Result<Registration> run(const Volume& moving, const Volume& fixed, const glm::d
                          const Progress& progress) {
   progress(0.0, "registering");
   const auto moving_levels = registration::make_pyramid(moving, progress);
-  if (!moving_levels) return tl::unexpected<Error>(moving_levels.error());
+  if (!moving_levels) return pass_on(moving_levels);
   progress(0.5 * kPyramidsPart, "registering");
   const auto fixed_levels = registration::make_pyramid(fixed, progress);
-  if (!fixed_levels) return tl::unexpected<Error>(fixed_levels.error());
+  if (!fixed_levels) return pass_on(fixed_levels);
 
   const Progress search = between(progress, kPyramidsPart, 1.0);
   const auto levels = static_cast<int>(std::size(registration::kLevelsMm));
@@ -86,7 +86,7 @@ Result<Registration> run(const Volume& moving, const Volume& fixed, const glm::d
     const auto maximum =
         registration::maximise((*moving_levels)[index], (*fixed_levels)[index], to_moving,
                                0.5 * registration::kLevelsMm[index], search.part(level, levels));
-    if (!maximum) return tl::unexpected<Error>(maximum.error());
+    if (!maximum) return pass_on(maximum);
     to_moving = maximum->to_moving;
     after = maximum->information;
   }
@@ -94,7 +94,7 @@ Result<Registration> run(const Volume& moving, const Volume& fixed, const glm::d
   result.information_after = after;
   // On the same level and the same samples as the end.
   const auto before = registration::information(moving_levels->back(), fixed_levels->back(), guess);
-  if (!before) return tl::unexpected<Error>(before.error());
+  if (!before) return pass_on(before);
   result.information_before = *before;
   progress(1.0, "registering");
   return result;

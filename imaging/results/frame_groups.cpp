@@ -94,7 +94,7 @@ Result<DescribedFrames> read_frame_groups(DcmDataset& dataset, std::int64_t colu
         described.groups.push_back(std::move(groups));
         return {};
       });
-  if (!read) return tl::unexpected<Error>(read.error());
+  if (!read) return pass_on(read);
   if (described.frames.empty()) {
     return fail(ErrorKind::input, "{}: PerFrameFunctionalGroupsSequence (5200,9230) is missing", file);
   }

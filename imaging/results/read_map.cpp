@@ -32,7 +32,7 @@ Result<Volume> empty_volume(const Geometry& grid, std::size_t frames, float valu
 template <class Visit>
 Status visit_pixels(const SegmentFrame& frame, const Geometry& grid, const std::string& file, Visit&& visit) {
   const auto map = map_frame(frame, grid, file);
-  if (!map) return tl::unexpected<Error>(map.error());
+  if (!map) return pass_on(map);
   for (std::int64_t row = 0; row < frame.rows; ++row) {
     for (std::int64_t column = 0; column < frame.columns; ++column) {
       const Index3 voxel = map->first + column * map->column + row * map->row;
@@ -47,7 +47,7 @@ Result<Volume> read_fractions(const fs::path& file, float empty) {
   SegmentationFile object(file);
   TIDEMARK_TRY(object.load());
   const auto grid = object.own_grid();
-  if (!grid) return tl::unexpected<Error>(grid.error());
+  if (!grid) return pass_on(grid);
   const auto& frames = object.frames().frames;
   auto volume = empty_volume(*grid, frames.size(), empty, file.string());
   if (!volume) return volume;
@@ -129,11 +129,11 @@ Result<Volume> read_parameters(const fs::path& file, float empty) {
   auto object = load_object(file);
   if (!object) return pass_on(object);
   const auto map = read_parametric_map(object->dataset(), object->syntax(), name);
-  if (!map) return tl::unexpected<Error>(map.error());
+  if (!map) return pass_on(map);
   const DescribedFrames& described = map->described;
   const StoredPixels& pixels = map->pixels;
   const auto grid = grid_of_frames(described.frames, described.between_mm, described.thickness_mm, name);
-  if (!grid) return tl::unexpected<Error>(grid.error());
+  if (!grid) return pass_on(grid);
   auto volume = empty_volume(*grid, described.frames.size(), empty, name);
   if (!volume) return volume;
   auto& values = std::get<std::vector<float>>(volume->voxels);

@@ -25,7 +25,7 @@ Status SegmentationReader::fill(std::size_t index, Segments& segments) {
   const SegmentFrame& frame = object_.frames().frames[index];
   const Geometry& grid = segments.geometry;
   const auto map = map_frame(frame, grid, object_.file().string());
-  if (!map) return tl::unexpected<Error>(map.error());
+  if (!map) return pass_on(map);
   TIDEMARK_TRY(object_.pixels().go_to(static_cast<std::int64_t>(index)));
   auto& slices = segments.list[frame.segment - 1U].slices;
   for (std::int64_t r = 0; r < object_.format().rows; ++r) {

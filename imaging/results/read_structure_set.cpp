@@ -54,7 +54,7 @@ Result<std::vector<double>> numbers_of(DcmItem& contour, const fs::path& file) {
 // The points of a contour in the grid's voxels.
 Result<std::vector<glm::dvec3>> points_of(DcmItem& contour, const Geometry& grid, const fs::path& file) {
   const auto read = numbers_of(contour, file);
-  if (!read) return tl::unexpected<Error>(read.error());
+  if (!read) return pass_on(read);
   const std::vector<double>& numbers = *read;
   const glm::dmat3 rotation = glm::inverse(grid.direction);
   std::vector<glm::dvec3> points;
@@ -115,7 +115,7 @@ Status RegionFiller::add(DcmItem& contour) {
     return {};
   }
   const auto points = points_of(contour, grid_, file_);
-  if (!points) return tl::unexpected<Error>(points.error());
+  if (!points) return pass_on(points);
   if (points->size() < 3) {
     ++left_out_;
     return {};

@@ -26,7 +26,7 @@ Result<SegmentPixels> SegmentPixels::open(const ParsedDicom& object, const Segme
                                           const fs::path& file) {
   SegmentPixels pixels(object, format, file);
   const Status found = object.syntax().is_encapsulated() ? pixels.find_compressed() : pixels.find_native();
-  if (!found) return tl::unexpected<Error>(found.error());
+  if (!found) return pass_on(found);
   return pixels;
 }
 

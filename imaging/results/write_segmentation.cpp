@@ -256,7 +256,7 @@ Status write_segmentation(const Segments& segments, SourceFiles source, const fs
                   segments.list.size());
     }
     const auto study = source_study(source, segments.geometry);
-    if (!study) return tl::unexpected<Error>(study.error());
+    if (!study) return pass_on(study);
     return SegmentationWriter(segments, *study, file).write(progress);
   });
 }

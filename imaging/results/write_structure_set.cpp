@@ -220,7 +220,7 @@ Status write_structure_set(const Segments& segments, SourceFiles source, const f
       }
     }
     const auto study = source_study(source, segments.geometry);
-    if (!study) return tl::unexpected<Error>(study.error());
+    if (!study) return pass_on(study);
     return StructureSetWriter(segments, *study, file).write(progress);
   });
 }

@@ -366,7 +366,7 @@ Result<std::optional<Hit>> GlRenderer::pick(const VolumeView& view, PictureSize 
   finely.quality = {};
   if (!source_picture_.has_volume()) finely.source.reset();  // rays cannot see it
   const auto program = use_volume_program("render/volume.frag", finely, size, {{"PICK", ""}});
-  if (!program) return tl::unexpected<Error>(program.error());
+  if (!program) return pass_on(program);
   // The whole view of this program is the one pixel.
   const glm::dvec2 from_middle = pixel + 0.5 - 0.5 * glm::dvec2(size.width, size.height);
   const glm::dmat4 pixel_from_view =

@@ -255,7 +255,7 @@ class HistoryTreeTest : public QObject {
       }
       case 4: {
         const auto label = document.labels().add("label");
-        if (!label) return tl::unexpected<Error>(label.error());
+        if (!label) return pass_on(label);
         auto accepted = document.accept_surface(*label, document::Take::others_too);
         if (!accepted) return pass_on(accepted);
         return {};

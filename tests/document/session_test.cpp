@@ -240,7 +240,7 @@ class SessionTest : public QObject {
     const Ended ended = run_in_child(
         [&]() -> Status {
           const auto contents = document::load_session(folder / "small.tidemark");
-          if (!contents) return tl::unexpected<Error>(contents.error());
+          if (!contents) return pass_on(contents);
           return {};
         },
         {.more_memory = std::int64_t{64} << 20});

@@ -75,7 +75,7 @@ void CaseExports::write_surface(CaseWindow& window, const QString& file) {
   files_.write_contents(window, file,
                         [path = path_of(file)](const document::SessionContents& contents) -> Status {
                           const auto mesh = imaging::extract_surface(contents.phi->to_volume());
-                          if (!mesh) return tl::unexpected<Error>(mesh.error());
+                          if (!mesh) return pass_on(mesh);
                           return imaging::write_mesh(*mesh, path);
                         });
 }
@@ -117,7 +117,7 @@ void CaseExports::export_recipe(CaseWindow& window) {
   files_.write_contents(window, file,
                         [path = path_of(file)](const document::SessionContents& contents) -> Status {
                           const auto text = contents.recipe.to_text();
-                          if (!text) return tl::unexpected<Error>(text.error());
+                          if (!text) return pass_on(text);
                           return write_file(path, *text);
                         });
 }

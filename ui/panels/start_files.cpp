@@ -23,9 +23,9 @@ Result<document::Start> load_start(const StartRequest& request, const Progress& 
     return start;
   }
   const auto volume = imaging::load_volume(path, {}, progress);
-  if (!volume) return tl::unexpected<Error>(volume.error());
+  if (!volume) return pass_on(volume);
   const auto values = imaging::onto_grid(*volume, grid, name);
-  if (!values) return tl::unexpected<Error>(values.error());
+  if (!values) return pass_on(values);
   start.from = document::FieldStart{
       std::make_shared<const solver::Field>(solver::Field::from_dense(grid, *values, band)), name};
   return start;

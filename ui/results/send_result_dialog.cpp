@@ -15,14 +15,14 @@ Result<std::vector<std::filesystem::path>> write_forms(const document::SessionCo
                                                        const std::filesystem::path& folder,
                                                        const Progress& progress) {
   const auto segments = document::result_segments(contents, content);
-  if (!segments) return tl::unexpected<Error>(segments.error());
+  if (!segments) return pass_on(segments);
   std::vector<std::filesystem::path> files;
   const auto count = static_cast<int>(forms.size());
   for (int form = 0; form < count; ++form) {
     files.push_back(folder / fmt::format("{}.dcm", form + 1));
     const Status written = document::write_result(*segments, forms[static_cast<std::size_t>(form)], source,
                                                   files.back(), progress.part(form, count));
-    if (!written) return tl::unexpected<Error>(written.error());
+    if (!written) return pass_on(written);
   }
   return files;
 }

@@ -73,7 +73,7 @@ Status write_kind(const document::SessionContents& contents, ResultFile kind, do
     return imaging::write_level_set(contents.phi->to_volume(), contents.phi->band, file);
   }
   const auto segments = document::result_segments(contents, content);
-  if (!segments) return tl::unexpected<Error>(segments.error());
+  if (!segments) return pass_on(segments);
   if (kind == ResultFile::meshes) return document::write_meshes(*segments, file, progress);
   const auto form = kind == ResultFile::segmentation ? imaging::ResultForm::segmentation
                                                      : imaging::ResultForm::structure_set;

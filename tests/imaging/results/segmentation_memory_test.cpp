@@ -68,7 +68,7 @@ class SegmentationMemoryTest : public QObject {
     QCOMPARE(bytes < 4 << 20, syntax != EXS_LittleEndianExplicit);
     const auto read_it = [&]() -> Status {
       const auto read = imaging::read_segmentation(file, &grid);
-      if (!read) return tl::unexpected<Error>(read.error());
+      if (!read) return pass_on(read);
       std::vector<std::uint8_t> first(512 * 512);
       first[2] = first.back() = 1;
       const auto& slices = read->list.at(0).slices;
@@ -89,7 +89,7 @@ class SegmentationMemoryTest : public QObject {
     const auto ended = test::run_in_child(
         [&]() -> Status {
           const auto read = imaging::read_segmentation(file, &large);
-          return read ? Status() : tl::unexpected<Error>(read.error());
+          return read ? Status() : pass_on(read);
         },
         {.more_memory = std::int64_t{64} << 20});
     const QString why = QString::fromStdString(ended.failure);
