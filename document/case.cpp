@@ -45,7 +45,7 @@ Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take) {
   return labels_.accept((*phi)->mask(), label, take);
 }
 
-Status Case::begin_from_label(std::uint8_t label, std::optional<double> within_mm) {
+Status Case::begin_from_label(std::uint8_t label, std::optional<double> within_mm, int levels) {
   const Label* known = labels_.find(label);
   if (known == nullptr) return fail(ErrorKind::usage, "there is no label {}", label);
   MaskStart from{std::make_shared<const Mask>(labels_.mask(label)), "label " + known->name};
@@ -56,6 +56,7 @@ Status Case::begin_from_label(std::uint8_t label, std::optional<double> within_m
   }
   Start start;
   start.from = std::move(from);
+  start.levels = levels;
   return level_set_->begin(start);
 }
 

@@ -44,7 +44,7 @@ class Case {
   // Changes of labels; each is one entry of the history.
   Result<Acceptance> accept_surface(std::uint8_t label, Take take);
   // With `within_mm` the label is refined: the surface stays that near to it.
-  Status begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt);
+  Status begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
   // One step back or forward in the history of everything.
   Status undo() { return history_.undo(); }

@@ -75,6 +75,7 @@ Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> vol
   if (!start) return pass_on(start);
   Evolution result;
   result.start = std::move(*start);
+  result.coarse_runs = setup->coarse_runs();
   TIDEMARK_TRY(play(*setup, recipe, options, progress, result.advance));
   auto phi = setup->executor().snapshot();
   if (!phi) return pass_on(phi);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "document/coarse_levels.h"
 #include "document/outcome.h"
 #include "document/recipe.h"
 #include "solver/statistics.h"
@@ -32,6 +33,7 @@ struct Evolution {
   solver::Field phi;
   solver::Field start;  // before the first edit and step
   RecipeExecutor executor;
+  std::vector<CoarseRun> coarse_runs;  // before that; empty: none
   solver::AdvanceReport advance;
   solver::MemoryReport memory;
   double band = 0.0;

@@ -8,6 +8,7 @@
 #include "solver/model.h"
 #include "solver/speed/motion_limit.h"
 #include "solver/speed/speed_registry.h"
+#include "solver/speed/tent_speed.h"
 
 namespace tidemark::document {
 namespace {
@@ -202,8 +203,10 @@ Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& p
   const auto* from = std::get_if<MaskStart>(&start.from);
   const bool fits = from == nullptr || from->mask->geometry.size == source_->geometry.size;
   TIDEMARK_TRY(set_limit(fits ? start.limit() : nullptr));
+  coarse_runs_.clear();
   if (!start.empty()) {
-    auto begun = tidemark::document::begin(*executor_, *source_, start, progress);
+    auto begun = start.levels > 1 ? begin_coarse_to_fine(start, progress)
+                                  : tidemark::document::begin(*executor_, *source_, start, progress);
     if (!begun) {
       TIDEMARK_TRY(set_limit(former));
     }
@@ -212,6 +215,27 @@ Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& p
   solver::Field nothing = solver::Field::empty(source_->geometry, executor_->band());
   TIDEMARK_TRY(executor_->restore(nothing));
   return nothing;
+}
+
+Result<solver::Field> ExecutorSetup::begin_coarse_to_fine(const Start& start, const Progress& progress) {
+  TIDEMARK_TRY(make_missing_speed({nullptr, progress.stop}));
+  CoarseInputs inputs{*source_,
+                      executor_->speed(),
+                      drive_ == nullptr ? nullptr : drive_->constraints,
+                      executor_->parameters(),
+                      kind_,
+                      options_,
+                      executor_->band(),
+                      executor_->memory().page_shape};
+  if (inputs.speed == nullptr) {
+    inputs.speed = std::make_shared<const solver::TentSpeed>(source_, executor_->parameters());
+  }
+  auto coarse = run_coarse_levels(start, inputs, progress);
+  if (!coarse) return pass_on(coarse);
+  if (!*coarse) return tidemark::document::begin(*executor_, *source_, start, progress);
+  TIDEMARK_TRY(executor_->restore((*coarse)->phi));
+  coarse_runs_ = std::move((*coarse)->runs);
+  return executor_->snapshot();
 }
 
 Status ExecutorSetup::resume() {

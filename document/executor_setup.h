@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/progress.h"
+#include "document/coarse_levels.h"
 #include "document/recipe.h"
 #include "solver/executor.h"
 
@@ -61,6 +62,8 @@ class ExecutorSetup {
   // A start with the present parameters and source, and with its limit; an empty one is outside everywhere.
   // Returns phi at the start.
   Result<solver::Field> begin(const Start& start, const Progress& progress);
+  // On coarser grids, of the last begin(); empty: it had one level, or the coarse ones did not hold it.
+  [[nodiscard]] const std::vector<CoarseRun>& coarse_runs() const { return coarse_runs_; }
   // What a start that was refined lays down for the surface, beside walls and anchors; null: nothing.
   Status set_limit(std::shared_ptr<const solver::MotionLimit> limit);
   // Puts back the executor's own phi: see ResumeEvent.
@@ -76,6 +79,7 @@ class ExecutorSetup {
 
  private:
   ExecutorSetup() = default;
+  Result<solver::Field> begin_coarse_to_fine(const Start& start, const Progress& progress);
   Status hold(std::shared_ptr<const solver::Constraints> marks,
               std::shared_ptr<const solver::MotionLimit> limit);
   Status remake(std::shared_ptr<const Volume> source, const solver::Parameters& parameters,
@@ -90,6 +94,7 @@ class ExecutorSetup {
   solver::ExecutorKind kind_ = solver::ExecutorKind::automatic;
   solver::ExecutorOptions options_;
   std::unique_ptr<solver::Executor> executor_;
+  std::vector<CoarseRun> coarse_runs_;
 };
 
 }  // namespace tidemark::document

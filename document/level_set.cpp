@@ -349,16 +349,15 @@ Result<LevelSet::Point> LevelSet::start_point() {
     start_ = known_.start = std::make_shared<const solver::Field>(std::move(*phi));
   }
   Point point{recipe_.up_to(0), start_, start_, {}, drive_};
-  settle_start(point.recipe, parameters());
+  settle_start(point.recipe);
+  point.recipe.set_conditions(parameters(), setup_.drive());
   return point;
 }
 
-// The recipe of a start becomes that of another run: with its paint, and the present conditions.
-void LevelSet::settle_start(Recipe& start, const solver::Parameters& parameters) const {
+// The recipe of a start becomes that of another run: with its paint, and smoothed as the source is now.
+void LevelSet::settle_start(Recipe& start) const {
   std::erase_if(start.events,
                 [](const RecipeEvent& event) { return !std::holds_alternative<PaintEvent>(event.what); });
-  start.parameters = parameters;
-  start.drive = setup_.drive();
   if (const double smoothed = smoothed_mm(); smoothed != start.smoothed_mm)
     start.events.push_back({0, SmoothEvent{smoothed}});
 }

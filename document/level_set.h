@@ -166,7 +166,7 @@ class LevelSet final : private OpenChange {
   Status go_to(Point point);
   Status prepare_start();
   Result<Point> start_point();
-  void settle_start(Recipe& start, const solver::Parameters& parameters) const;
+  void settle_start(Recipe& start) const;
   Status begin_again_with(const solver::Parameters& parameters);
   Result<solver::Field> start_with(const solver::Parameters& parameters);
   void take_drive_of_recipe();

@@ -26,7 +26,9 @@ Status LevelSet::begin_again_with(const solver::Parameters& parameters) {
   TIDEMARK_TRY(history_.close());
   const Point before = known_;
   Point point{recipe_.up_to(0), nullptr, nullptr, {}, drive_};
-  settle_start(point.recipe, parameters);
+  settle_start(point.recipe);
+  point.recipe.parameters = parameters;
+  point.recipe.drive = setup_.drive();
   auto phi = start_with(parameters);
   if (!phi) {
     TIDEMARK_TRY(go_to(before));

@@ -27,8 +27,7 @@ Status LevelSet::take_run(const SweepStart& start, const SweepRun& run, const Pr
   auto point = start_point();
   if (!point) return pass_on(point);
   const Point before = known_;
-  point->recipe.parameters = run.parameters;
-  point->recipe.drive = run.drive == nullptr ? start.drive : run.drive;
+  point->recipe.set_conditions(run.parameters, run.drive == nullptr ? start.drive : run.drive);
   TIDEMARK_TRY(go_to(std::move(*point)));
   Recipe recipe = recipe_;
   recipe.steps = run.steps;

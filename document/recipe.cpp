@@ -50,6 +50,23 @@ bool Recipe::has_drive() const {
   return drive != nullptr || last_event<DriveEvent>(events) != nullptr;
 }
 
+void Recipe::set_conditions(const solver::Parameters& wanted,
+                            const std::shared_ptr<const Drive>& wanted_drive) {
+  if (start.levels == 1) {
+    parameters = wanted;
+    drive = wanted_drive;
+    return;
+  }
+  std::erase_if(events, [](const RecipeEvent& event) {
+    return std::holds_alternative<ParametersEvent>(event.what) ||
+           std::holds_alternative<DriveEvent>(event.what);
+  });
+  if (wanted != parameters) events.push_back({0, ParametersEvent{wanted}});
+  if (value_of(wanted_drive) != value_of(drive)) {
+    events.push_back({0, DriveEvent{std::make_shared<const Drive>(value_of(wanted_drive))}});
+  }
+}
+
 void Recipe::change_drives(const std::function<void(Drive&)>& change) {
   const auto change_one = [&](std::shared_ptr<const Drive>& one) {
     if (one == nullptr) return;

@@ -67,9 +67,11 @@ struct RecipeExecutor {
 };
 
 struct Recipe {
-  static constexpr int kVersion = 2;
-  static constexpr int kVersionOfTents =
-      1;  // still written where a tent drives the surface, and nothing holds it
+  // Each recipe is written with the first version that can read it: where a tent drives the surface and
+  // nothing holds it, where another drive does, and where the start is computed coarse to fine.
+  static constexpr int kVersionOfTents = 1;
+  static constexpr int kVersionOfDrives = 2;
+  static constexpr int kVersion = 3;
   static constexpr std::size_t kLargestFile = std::size_t{64} << 20;  // bytes
 
   RecipeSource source;
@@ -93,6 +95,9 @@ struct Recipe {
   [[nodiscard]] double final_smoothed_mm() const;
   [[nodiscard]] const std::shared_ptr<const Drive>& final_drive() const;  // null: as `drive`
   [[nodiscard]] bool has_drive() const;                                   // at the start, or in an event
+  // The conditions of the first step become these. A start that was computed coarse to fine keeps those that
+  // it was computed with: others follow it as events.
+  void set_conditions(const solver::Parameters& wanted, const std::shared_ptr<const Drive>& wanted_drive);
   // Of each drive a changed copy, at the start and in events.
   void change_drives(const std::function<void(Drive&)>& change);
   // The recipe up to that many steps, with the edits after the last of them.

@@ -10,6 +10,7 @@
 #include "document/drive_json.h"
 #include "document/field_bytes.h"
 #include "document/packed_bytes.h"
+#include "solver/coarse_grid.h"
 #include "solver/speed/motion_limit.h"
 
 namespace tidemark::document {
@@ -184,6 +185,11 @@ Start read_start(const JsonField& field) {
   start.from = read_from(field.at("from"));
   start.seeds = read_spheres(field.at("seeds"));
   start.erasers = read_spheres(field.at("erasers"));
+  if (field.has("levels")) {
+    start.levels = static_cast<int>(field.at("levels").integer(1, solver::CoarseGrid::kMostLevels));
+    if (start.levels > 1 && std::holds_alternative<FieldStart>(start.from))
+      field.at("levels").wrong("a saved level set has no coarser levels");
+  }
   return start;
 }
 
@@ -196,9 +202,11 @@ Start read_partial_start(const JsonField& field) {
 }
 
 Json to_json(const Start& start) {
-  return {{"from", std::visit(FromJson{}, start.from)},
-          {"seeds", to_json(start.seeds)},
-          {"erasers", to_json(start.erasers)}};
+  Json json{{"from", std::visit(FromJson{}, start.from)},
+            {"seeds", to_json(start.seeds)},
+            {"erasers", to_json(start.erasers)}};
+  if (start.levels > 1) json["levels"] = start.levels;
+  return json;
 }
 
 namespace {
@@ -283,10 +291,17 @@ imaging::GridPolicy read_policy(const JsonField& field) {
   return policy;
 }
 
+namespace {
+
+int version_of(const Recipe& recipe) {
+  if (recipe.start.levels > 1) return Recipe::kVersion;
+  return recipe.has_drive() || recipe.start.limit() ? Recipe::kVersionOfDrives : Recipe::kVersionOfTents;
+}
+
+}  // namespace
+
 Json to_json(const Recipe& recipe) {
-  Json json{
-      {"format", kFormat},
-      {"version", recipe.has_drive() || recipe.start.limit() ? Recipe::kVersion : Recipe::kVersionOfTents}};
+  Json json{{"format", kFormat}, {"version", version_of(recipe)}};
   json["source"] = {{"size", index_json(recipe.source.size)},
                     {"spacing_mm", vector_json(recipe.source.spacing_mm)},
                     {"series_uid", recipe.source.series_uid},
@@ -311,7 +326,7 @@ Recipe read_recipe(const JsonField& field) {
   field.at("format").must_be(kFormat);
   const JsonField version = field.at("version");
   const std::int64_t number = version.integer(0, 1 << 30);
-  if (number != Recipe::kVersion && number != Recipe::kVersionOfTents)
+  if (number < Recipe::kVersionOfTents || number > Recipe::kVersion)
     version.wrong("this version cannot be read");
   if (!field.good()) return recipe;
   const JsonField source = field.at("source");

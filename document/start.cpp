@@ -58,49 +58,46 @@ Status check_sphere(const solver::Sphere& sphere, const Geometry& grid, const ch
               what, voxel.x, voxel.y, voxel.z, sphere.radius_mm, grid.size.x, grid.size.y, grid.size.z);
 }
 
-Status check_spheres(const Start& start, const Geometry& grid) {
-  for (const solver::Sphere& sphere : start.seeds) {
-    TIDEMARK_TRY(check_sphere(sphere, grid, "a seed"));
-  }
-  for (const solver::Sphere& sphere : start.erasers) {
-    TIDEMARK_TRY(check_sphere(sphere, grid, "an eraser"));
-  }
-  return {};
-}
-
-// The first part as phi.
-struct FirstPart {
-  const solver::Executor& executor;
+// The first part as a mask.
+struct FirstMask {
   const Volume& source;
 
-  [[nodiscard]] solver::Field from_mask(const Mask& mask) const {
-    return solver::distance_transform(mask, executor.band(), executor.memory().page_shape);
+  using Shared = std::shared_ptr<const Mask>;
+
+  Result<Shared> operator()(std::monostate) const { return nullptr; }
+  Result<Shared> operator()(const ThresholdStart& start) const {
+    return std::make_shared<const Mask>(imaging::threshold(source, start.low, start.high));
   }
-  Result<solver::Field> operator()(std::monostate) const {
-    return solver::Field::empty(source.geometry, executor.band());
-  }
-  Result<solver::Field> operator()(const ThresholdStart& start) const {
-    return from_mask(imaging::threshold(source, start.low, start.high));
-  }
-  Result<solver::Field> operator()(const FloodStart& start) const {
+  Result<Shared> operator()(const FloodStart& start) const {
     auto mask = imaging::flood_fill(source, start.voxel, start.low, start.high);
     if (!mask) return pass_on(mask);
-    return from_mask(*mask);
+    return std::make_shared<const Mask>(std::move(*mask));
   }
-  Result<solver::Field> operator()(const MaskStart& start) const {
+  Result<Shared> operator()(const MaskStart& start) const {
     TIDEMARK_TRY(check_grid(start.mask->geometry, source.geometry, "mask"));
-    return from_mask(*start.mask);
+    return start.mask;
   }
-  Result<solver::Field> operator()(const FieldStart& start) const {
-    TIDEMARK_TRY(check_grid(start.phi->geometry, source.geometry, "phi"));
-    if (start.phi->check_fits(source.geometry, executor.band())) return *start.phi;
-    return solver::Field::from_dense(source.geometry, start.phi->dense(), executor.band());  // another band
-  }
+  Result<Shared> operator()(const FieldStart&) const { return nullptr; }
 };
 
-Result<solver::Field> begin_unguarded(solver::Executor& executor, const Volume& source, const Start& start,
-                                      const Progress& progress) {
-  auto first = std::visit(FirstPart{executor, source}, start.from);
+// The first part as phi.
+Result<solver::Field> first_part(const solver::Executor& executor, const Volume& source, const Start& start) {
+  if (const auto* saved = std::get_if<FieldStart>(&start.from)) {
+    TIDEMARK_TRY(check_grid(saved->phi->geometry, source.geometry, "phi"));
+    if (saved->phi->check_fits(source.geometry, executor.band())) return *saved->phi;
+    return solver::Field::from_dense(source.geometry, saved->phi->dense(), executor.band());  // another band
+  }
+  const auto mask = mask_of(start, source);
+  if (!mask) return pass_on(mask);
+  if (*mask == nullptr) return solver::Field::empty(source.geometry, executor.band());
+  return solver::distance_transform(**mask, executor.band(), executor.memory().page_shape);
+}
+
+}  // namespace
+
+Result<solver::Field> place(solver::Executor& executor, const Volume& source, const Start& start,
+                            const Progress& progress) {
+  auto first = first_part(executor, source, start);
   if (!first) return first;
   if (progress.cancelled()) return cancelled_error();
   TIDEMARK_TRY(executor.restore(*first));
@@ -111,21 +108,30 @@ Result<solver::Field> begin_unguarded(solver::Executor& executor, const Volume& 
     TIDEMARK_TRY(executor.paint(sphere, solver::Brush::erase));
   }
   if (progress.cancelled()) return cancelled_error();
-  auto phi = executor.snapshot();
-  if (phi && phi->mask().count() == 0) {
-    return fail(ErrorKind::usage, "the start is empty: no voxel is inside ({})", start.describe());
-  }
-  return phi;
+  return executor.snapshot();
 }
 
-}  // namespace
+Status check_spheres(const Start& start, const Geometry& grid) {
+  for (const solver::Sphere& sphere : start.seeds) {
+    TIDEMARK_TRY(check_sphere(sphere, grid, "a seed"));
+  }
+  for (const solver::Sphere& sphere : start.erasers) {
+    TIDEMARK_TRY(check_sphere(sphere, grid, "an eraser"));
+  }
+  return {};
+}
+
+Result<std::shared_ptr<const Mask>> mask_of(const Start& start, const Volume& source) {
+  return std::visit(FirstMask{source}, start.from);
+}
 
 std::string Start::describe() const {
   std::string text = std::visit(Describe{}, from);
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (!seeds.empty()) add(counted(seeds.size(), "seed"));
   if (!erasers.empty()) add(counted(erasers.size(), "eraser"));
-  return text.empty() ? "nothing" : text;
+  if (text.empty()) return "nothing";
+  return levels > 1 ? fmt::format("{}, coarse to fine in {} levels", text, levels) : text;
 }
 
 Start suggested_start(const Geometry& geometry, const std::optional<std::array<double, 4>>& seed,
@@ -145,7 +151,10 @@ Result<solver::Field> begin(solver::Executor& executor, const Volume& source, co
   TIDEMARK_TRY(check_spheres(start, source.geometry));
   const auto before = executor.snapshot();
   if (!before) return pass_on(before);
-  auto phi = begin_unguarded(executor, source, start, progress);
+  auto phi = place(executor, source, start, progress);
+  if (phi && phi->mask().count() == 0) {
+    phi = fail(ErrorKind::usage, "the start is empty: no voxel is inside ({})", start.describe());
+  }
   if (!phi) {
     TIDEMARK_TRY(executor.restore(*before));
   }

@@ -49,11 +49,13 @@ struct FieldStart {
   std::string origin;
 };
 
-// The first part, then seeds are added, then erasers are taken away.
+// The first part, then seeds are added, then erasers are taken away. With more than one level the level set
+// comes to rest on coarser grids first (document/coarse_levels.h), with the conditions of its first step.
 struct Start {
   std::variant<std::monostate, ThresholdStart, FloodStart, MaskStart, FieldStart> from;
   std::vector<solver::Sphere> seeds;
   std::vector<solver::Sphere> erasers;
+  int levels = 1;  // to solver::CoarseGrid::kMostLevels
 
   [[nodiscard]] bool empty() const { return std::holds_alternative<std::monostate>(from) && seeds.empty(); }
   // Of a mask that is refined; null: none.
@@ -72,10 +74,19 @@ struct Start {
 [[nodiscard]] std::shared_ptr<const solver::Constraints> joined(
     std::shared_ptr<const solver::Constraints> marks, const solver::MotionLimit* limit);
 
+// The first part as a mask, on the grid of `source`, the volume as the solver sees it. Null: there is none,
+// or it is a saved level set. Fails as begin() does.
+Result<std::shared_ptr<const Mask>> mask_of(const Start& start, const Volume& source);
+// Fails (ErrorKind::usage) when a seed or an eraser is outside the grid.
+Status check_spheres(const Start& start, const Geometry& grid);
 // Gives the executor its start in place of its phi. `source` is the volume as the solver sees it.
 // Fails with ErrorKind::usage when a part is outside the volume or nothing is inside; phi is then as before.
 // phi as it then is.
 Result<solver::Field> begin(solver::Executor& executor, const Volume& source, const Start& start,
                             const Progress& progress = {});
+
+// The same as begin(), also where nothing is inside; after a failure phi is anything.
+Result<solver::Field> place(solver::Executor& executor, const Volume& source, const Start& start,
+                            const Progress& progress);
 
 }  // namespace tidemark::document

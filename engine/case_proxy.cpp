@@ -293,10 +293,10 @@ void CaseProxy::accept_surface_as(const QString& name, document::Take take) {
   });
 }
 
-void CaseProxy::begin_from_label(std::uint8_t label, std::optional<double> within_mm) {
-  post([label, within_mm](CaseRunner& runner, const Progress&) {
+void CaseProxy::begin_from_label(std::uint8_t label, std::optional<double> within_mm, int levels) {
+  post([label, within_mm, levels](CaseRunner& runner, const Progress&) {
     runner.set_playing(false);
-    return runner.report_edit(runner.document().begin_from_label(label, within_mm));
+    return runner.report_edit(runner.document().begin_from_label(label, within_mm, levels));
   });
 }
 

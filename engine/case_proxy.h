@@ -127,7 +127,7 @@ class CaseProxy : public QObject {
   void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels);
   void accept_surface_as(const QString& name, document::Take take = document::Take::free_voxels);
   // With `within_mm` the label is refined: the surface stays that near to it.
-  void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt);
+  void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
   // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,
   // or never when the case is closed before.

@@ -48,6 +48,17 @@ Json drive_json(const document::Drive& drive) {
   return object;
 }
 
+Json coarse_json(const std::vector<document::CoarseRun>& runs) {
+  Json list = Json::array();
+  for (const auto& [size, advance] : runs) {
+    list.push_back({{"size", {size.x, size.y, size.z}},
+                    {"steps", advance.steps},
+                    {"seconds", advance.seconds},
+                    {"converged", advance.converged}});
+  }
+  return list;
+}
+
 const char* describe(document::Outcome outcome) {
   switch (outcome) {
     case document::Outcome::converged:
@@ -146,6 +157,7 @@ Json to_json(const RunFigures& figures) {
   object["steps_per_second"] = has_pace(figures) ? Json(steps_per_second(advance)) : Json();
   object["voxel_updates"] = advance.voxel_updates;
   object["voxel_updates_per_second"] = has_pace(figures) ? Json(voxel_updates_per_second(advance)) : Json();
+  object["coarse_levels"] = coarse_json(figures.coarse_runs);
   object["paging_seconds"] = advance.paging_seconds;
   object["converged"] = advance.converged;
   object["outcome"] = document::name_of(figures.outcome);
@@ -189,6 +201,10 @@ Json to_json(const RunFigures& figures) {
 
 void say(Console& console, const RunFigures& figures) {
   const solver::AdvanceReport& advance = figures.advance;
+  for (const auto& [size, coarse] : figures.coarse_runs) {
+    console.say("Coarse     {} steps on {} x {} x {} voxels, {:.3f} s", coarse.steps, size.x, size.y, size.z,
+                coarse.seconds);
+  }
   console.say("Steps      {}, {}", advance.steps, describe(figures.outcome));
   console.say("Time       {:.3f} s in the solver ({}, {} threads){}", advance.seconds, figures.executor,
               figures.threads, describe_pace(figures));

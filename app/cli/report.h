@@ -7,6 +7,7 @@
 
 #include "app/cli/console.h"
 #include "core/volume.h"
+#include "document/coarse_levels.h"
 #include "document/drive.h"
 #include "document/outcome.h"
 #include "solver/executor.h"
@@ -40,6 +41,7 @@ struct RunFigures {
   std::optional<double> smooth_mm;
   double band = 0.0;
   double time_step = 0.0;
+  std::vector<document::CoarseRun> coarse_runs;  // before `advance`; empty: none
   solver::AdvanceReport advance;
   document::Outcome outcome = document::Outcome::unfinished;
   std::optional<double> wider_range;

@@ -57,6 +57,7 @@ void RunResults::take(document::Evolution evolution) {
   figures.drive = recipe.final_drive();
   figures.band = evolution.band;
   figures.time_step = evolution.time_step;
+  figures.coarse_runs = std::move(evolution.coarse_runs);
   figures.advance = evolution.advance;
   figures.memory = evolution.memory;
   figures.surface = evolution.surface;

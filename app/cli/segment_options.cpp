@@ -128,6 +128,7 @@ solver::Parameters SegmentOptions::parameters() const {
 
 void add_segment_options(CLI::App& app, SegmentOptions& options) {
   add_common_options(app, options);
+  add_levels_option(app, options.start);
   add_solver_options(app, options.solver);
   add_result_options(app, options.results);
 }

@@ -6,6 +6,7 @@
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
 #include "imaging/results/results.h"
+#include "solver/coarse_grid.h"
 
 namespace tidemark::cli {
 namespace {
@@ -42,6 +43,24 @@ Result<std::vector<solver::Sphere>> resolve(const std::vector<SphereArgument>& a
     spheres.push_back(*sphere);
   }
   return spheres;
+}
+
+constexpr int kMostLevels = solver::CoarseGrid::kMostLevels;
+
+int levels_of(const StartOptions& options, const Geometry& grid) {
+  if (!options.levels) return 1;
+  return *options.levels == "auto" ? solver::levels_for(grid) : options.levels->front() - '0';
+}
+
+Status check_levels(const StartOptions& options) {
+  if (!options.levels || *options.levels == "1") return {};
+  const std::string& levels = *options.levels;
+  const bool number = levels.size() == 1 && levels[0] >= '1' && levels[0] - '0' <= kMostLevels;
+  if (!number && levels != "auto") {
+    return fail(ErrorKind::usage, "--levels {}: must be auto or a number from 1 to {}", levels, kMostLevels);
+  }
+  if (options.phi) return fail(ErrorKind::usage, "--levels: --init-phi goes on as it is, on the finest");
+  return {};
 }
 
 Status check_order(const std::string& option, double low, double high) {
@@ -82,7 +101,16 @@ void add_start_options(CLI::App& app, StartOptions& options) {
       ->group(kGroup);
 }
 
+void add_levels_option(CLI::App& app, StartOptions& options) {
+  app.add_option("--levels", options.levels,
+                 "Coarse to fine: come to rest on a quarter and a half of the resolution first (3), on half\n"
+                 "(2), on as many levels as suit the volume (auto), or not (1, the default)")
+      ->type_name("auto|N")
+      ->group("Start (at least one)");
+}
+
 Status check(const StartOptions& options) {
+  TIDEMARK_TRY(check_levels(options));
   const int inits = int{options.mask.has_value()} + int{options.threshold.has_value()} +
                     int{options.flood.has_value()} + int{options.phi.has_value()};
   if (inits > 1) {
@@ -140,6 +168,7 @@ Result<document::Start> make_start(const StartOptions& options, const Geometry& 
   auto erasers = resolve(options.erasers, grid);
   if (!erasers) return pass_on(erasers);
   start.erasers = std::move(*erasers);
+  start.levels = levels_of(options, grid);
   return start;
 }
 

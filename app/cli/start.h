@@ -21,13 +21,18 @@ struct StartOptions {
   std::optional<std::vector<double>> threshold;  // --init-threshold: low, high
   std::optional<std::vector<double>> flood;      // --init-flood: i, j, k, low, high
   std::optional<std::string> phi;                // --init-phi
+  std::optional<std::string> levels;             // --levels: "auto", or a number; unset: 1
 
   [[nodiscard]] bool given() const { return !seeds.empty() || mask || threshold || flood || phi; }
 };
 
 void add_start_options(CLI::App& app, StartOptions& options);
 
-// The checks without a volume: at most one init option, limits in order. Fails with ErrorKind::usage.
+// --levels, of commands that begin coarse to fine.
+void add_levels_option(CLI::App& app, StartOptions& options);
+
+// The checks without a volume: at most one init option, limits in order, levels that there are. Fails with
+// ErrorKind::usage.
 Status check(const StartOptions& options);
 
 // The check on the volume's grid: every centre lies inside it. Fails with ErrorKind::usage.

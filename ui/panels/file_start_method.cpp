@@ -87,12 +87,14 @@ void FileStartMethod::start() {
   const std::filesystem::path path(path_->text().toStdU16String());
   StartRequest request{kind_, path, proxy()->volume().geometry, proxy()->state().band, std::nullopt};
   if (refine_) request.within_mm = refine_->within_mm();
-  reading_ = engine::BackgroundJob::start(this, [this, wanted, request](engine::BackgroundJob& job) {
-    const auto start = std::make_shared<Result<document::Start>>(without_exceptions([&] {
-      return load_start(request, {nullptr, job.stop()});
-    }));
-    job.deliver([this, wanted, start] { take(*start, wanted); });
-  });
+  reading_ = engine::BackgroundJob::start(
+      this, [this, wanted, request, levels = levels()](engine::BackgroundJob& job) {
+        const auto start = std::make_shared<Result<document::Start>>(without_exceptions([&] {
+          return load_start(request, {nullptr, job.stop()});
+        }));
+        if (*start) (*start)->levels = levels;
+        job.deliver([this, wanted, start] { take(*start, wanted); });
+      });
   emit changed();
 }
 

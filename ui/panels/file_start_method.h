@@ -24,6 +24,7 @@ class FileStartMethod : public StartMethod {
   [[nodiscard]] QString title() const override;
   [[nodiscard]] QString sentence() const override;
   [[nodiscard]] bool can_start() const override;
+  [[nodiscard]] bool has_levels() const override { return kind_ == StartFile::mask; }
   // Reads the file beside the user interface, then begins in the case of the request.
   void start() override;
 

@@ -1,5 +1,6 @@
 #include "ui/panels/initialise_panel.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
@@ -50,6 +51,14 @@ void InitialisePanel::add_start() {
   auto* column = new QVBoxLayout(part);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(kSpace);
+  coarse_to_fine_ = new QCheckBox(tr("Coarse to fine"));
+  coarse_to_fine_->setToolTip(
+      tr("The surface comes to rest at a quarter and half of the resolution before its first step. Much "
+         "sooner at rest in a large study; what is thinner than a few voxels can be missed."));
+  connect(coarse_to_fine_, &QCheckBox::toggled, this, [this](bool wanted) {
+    for (StartMethod* method : methods_) method->set_coarse_to_fine(wanted);
+    show_sentence();
+  });
   sentence_ = make_note({});
   replaces_ = make_note(tr("It replaces the present surface; Undo brings that back."));
   replaces_->setForegroundRole(QPalette::PlaceholderText);
@@ -62,8 +71,9 @@ void InitialisePanel::add_start() {
     problem_->hide();
     methods_[static_cast<std::size_t>(method_)]->start();
   });
-  for (QWidget* widget : {static_cast<QWidget*>(sentence_), static_cast<QWidget*>(replaces_),
-                          static_cast<QWidget*>(problem_), static_cast<QWidget*>(start_)}) {
+  for (QWidget* widget :
+       {static_cast<QWidget*>(coarse_to_fine_), static_cast<QWidget*>(sentence_),
+        static_cast<QWidget*>(replaces_), static_cast<QWidget*>(problem_), static_cast<QWidget*>(start_)}) {
     column->addWidget(widget);
   }
   add(part);
@@ -82,6 +92,8 @@ void InitialisePanel::show_sentence() {
   if (!proxy()) return;
   const StartMethod& method = *methods_[static_cast<std::size_t>(method_)];
   sentence_->setText(method.sentence());
+  // A small study has no coarser level that is worth its while.
+  coarse_to_fine_->setVisible(method.has_levels() && solver::levels_for(proxy()->volume().geometry) > 1);
   start_->setEnabled(method.can_start());
   replaces_->setVisible(proxy()->state().begun && method.can_start());
 }

@@ -5,6 +5,7 @@
 
 #include "ui/panels/panel.h"
 
+class QCheckBox;
 class QComboBox;
 class QLabel;
 class QPushButton;
@@ -31,6 +32,7 @@ class InitialisePanel : public Panel {
   std::vector<StartMethod*> methods_;
   int method_ = 0;
   QComboBox* from_;
+  QCheckBox* coarse_to_fine_;
   QLabel* sentence_;
   QLabel* replaces_;
   QLabel* problem_;

@@ -82,6 +82,7 @@ bool SphereStartMethod::can_start() const {
 void SphereStartMethod::start() {
   document::Start start;
   start.seeds.push_back({proxy()->display().settings().cursor_mm, radius_->value()});
+  start.levels = levels();
   proxy()->begin(start);
 }
 
@@ -192,6 +193,7 @@ void ValueStartMethod::start() {
   } else {
     start.from = document::FloodStart{*voxel(), low_->value(), high_->value()};
   }
+  start.levels = levels();
   proxy()->begin(start);
 }
 
@@ -247,7 +249,8 @@ bool LabelStartMethod::can_start() const {
 }
 
 void LabelStartMethod::start() {
-  proxy()->begin_from_label(static_cast<std::uint8_t>(label_->currentData().toUInt()), refine_->within_mm());
+  proxy()->begin_from_label(static_cast<std::uint8_t>(label_->currentData().toUInt()), refine_->within_mm(),
+                            levels());
 }
 
 }  // namespace tidemark::ui

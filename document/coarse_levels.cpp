@@ -1,0 +1,124 @@
+#include "document/coarse_levels.h"
+
+#include <algorithm>
+
+#include "solver/coarse_grid.h"
+#include "solver/speed/coarse_speed.h"
+
+namespace tidemark::document {
+namespace {
+
+// Executors take their grid from a volume; here they read nothing else of it.
+std::shared_ptr<const Volume> grid_alone(const Geometry& geometry) {
+  auto volume = std::make_shared<Volume>();
+  volume->geometry = geometry;
+  volume->voxels = std::vector<std::int16_t>(static_cast<std::size_t>(geometry.voxel_count()));
+  return volume;
+}
+
+bool has_inside(const solver::Field& phi) {
+  return std::find(phi.table.begin(), phi.table.end(), solver::Field::kInside) != phi.table.end() ||
+         std::any_of(phi.pages.begin(), phi.pages.end(), [](float value) { return value > 0.0F; });
+}
+
+class CoarseLevels {
+ public:
+  CoarseLevels(const Start& start, const CoarseInputs& inputs, const Progress& progress)
+      : start_(start), inputs_(inputs), progress_(progress) {}
+
+  Result<std::optional<CoarseStart>> run();
+
+ private:
+  Status find_mask();
+  Result<std::unique_ptr<solver::Executor>> make_executor(const solver::CoarseGrid& grid) const;
+  Result<bool> begin(solver::Executor& executor, const solver::CoarseGrid& grid);
+  Status come_to_rest(solver::Executor& executor, const solver::CoarseGrid& grid, int level);
+
+  const Start& start_;
+  const CoarseInputs& inputs_;
+  const Progress& progress_;
+  std::shared_ptr<const Mask> mask_;  // of the start's first part, on the volume's grid; null: none
+  CoarseStart result_;
+};
+
+Result<std::optional<CoarseStart>> CoarseLevels::run() {
+  TIDEMARK_TRY(find_mask());
+  for (int halvings = start_.levels - 1; halvings > 0; --halvings) {
+    const solver::CoarseGrid grid(inputs_.source.geometry, halvings);
+    auto executor = make_executor(grid);
+    if (!executor) return pass_on(executor);
+    const auto begun = begin(**executor, grid);
+    if (!begun) return pass_on(begun);
+    if (!*begun) return std::nullopt;
+    TIDEMARK_TRY(come_to_rest(**executor, grid, start_.levels - 1 - halvings));
+    if (!has_inside(result_.phi)) return std::nullopt;
+  }
+  const solver::CoarseGrid last(inputs_.source.geometry, 1);
+  result_.phi = solver::refined(result_.phi, last, inputs_.band, inputs_.page_shape);
+  return std::move(result_);
+}
+
+Status CoarseLevels::find_mask() {
+  if (std::holds_alternative<FieldStart>(start_.from)) {
+    return fail(ErrorKind::usage, "a saved level set goes on as it is: it has no coarser levels");
+  }
+  TIDEMARK_TRY(check_spheres(start_, inputs_.source.geometry));
+  auto mask = mask_of(start_, inputs_.source);
+  if (!mask) return pass_on(mask);
+  mask_ = std::move(*mask);
+  return {};
+}
+
+Result<std::unique_ptr<solver::Executor>> CoarseLevels::make_executor(const solver::CoarseGrid& grid) const {
+  auto executor = solver::make_executor(inputs_.kind, grid_alone(grid.coarse()),
+                                        solver::coarsened(inputs_.parameters, grid), inputs_.options);
+  if (!executor) return executor;
+  TIDEMARK_TRY((*executor)->set_speed(std::make_shared<const solver::CoarseSpeed>(inputs_.speed, grid)));
+  if (inputs_.marks != nullptr) {
+    TIDEMARK_TRY((*executor)->set_constraints(
+        std::make_shared<const solver::Constraints>(solver::coarsened(*inputs_.marks, grid))));
+  }
+  return executor;
+}
+
+// Whether there is a surface on the grid: the start's on the coarsest, else that of the level before.
+Result<bool> CoarseLevels::begin(solver::Executor& executor, const solver::CoarseGrid& grid) {
+  if (!result_.runs.empty()) {
+    const solver::CoarseGrid next(grid.coarse(), 1);
+    TIDEMARK_TRY(
+        executor.restore(solver::refined(result_.phi, next, executor.band(), executor.memory().page_shape)));
+    return true;
+  }
+  Start coarse;
+  coarse.seeds = start_.seeds;
+  coarse.erasers = start_.erasers;
+  if (mask_ != nullptr) {
+    coarse.from = MaskStart{std::make_shared<const Mask>(solver::coarsened(*mask_, grid)), {}};
+    mask_.reset();
+  }
+  const Volume volume{grid.coarse(), {}};
+  auto phi = place(executor, volume, coarse, progress_);
+  if (!phi) return pass_on(phi);
+  return has_inside(*phi);
+}
+
+Status CoarseLevels::come_to_rest(solver::Executor& executor, const solver::CoarseGrid& grid, int level) {
+  auto advance =
+      executor.advance({kMostCoarseSteps, true, progress_.part(level, std::max(1, start_.levels - 1))});
+  if (!advance) return pass_on(advance);
+  if (progress_.cancelled()) return cancelled_error();
+  auto phi = executor.snapshot();
+  if (!phi) return pass_on(phi);
+  result_.phi = std::move(*phi);
+  result_.runs.push_back({grid.coarse().size, *advance});
+  return {};
+}
+
+}  // namespace
+
+Result<std::optional<CoarseStart>> run_coarse_levels(const Start& start, const CoarseInputs& inputs,
+                                                     const Progress& progress) {
+  return CoarseLevels(start, inputs, progress).run();
+}
+
+}  // namespace tidemark::document
