@@ -103,6 +103,9 @@ Status Segmentation::compare_with_truth() {
 void Segmentation::say_warnings() {
   const RunFigures& figures = results_.figures;
   if (const std::string advice = advice_on(figures); !advice.empty()) console_.warn(advice);
+  if (results_.recipe.start.levels > 1 && figures.coarse_runs.empty()) {
+    console_.warn("too small for coarser levels: the surface began on the volume's own grid");
+  }
   if (options_.until_converged() && !figures.advance.converged) {
     console_.warn(
         fmt::format("the surface was still moving after {} steps (--max-steps)", figures.advance.steps));

@@ -51,6 +51,7 @@ struct Convergence {
 struct ContestantKind {
   std::string name;         // for --only and JSON
   std::string description;  // its name and its threads
+  // Empty: takes part in runs to convergence alone.
   std::function<Result<std::unique_ptr<Contestant>>(const Problem&)> make;
   std::function<Result<Convergence>(const Problem&)> converge;  // empty: has no criterion of its own
 };

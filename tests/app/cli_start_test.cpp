@@ -1,4 +1,6 @@
 // Where a segmentation begins, and that going on from there leads where it would have led.
+#include <QJsonArray>
+
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/support.h"
@@ -15,6 +17,7 @@ class CliStartTest : public QObject {
   void the_start_is_a_mask_or_a_threshold_or_a_fill();
   void a_mask_with_other_axes_is_matched_by_its_geometry();
   void an_automatic_start_says_what_it_chose();
+  void levels_come_to_rest_one_after_the_other();
 
  private:
   TemporaryFolder folder_;
@@ -36,6 +39,36 @@ void CliStartTest::a_resumed_run_equals_an_unbroken_one() {
   QCOMPARE(must_run(second).code, 0);
   QCOMPARE(bytes_of(folder_ / "resumed.nrrd"), bytes_of(folder_ / "whole.nrrd"));
   QCOMPARE(bytes_of(folder_ / "end.nrrd"), bytes_of(folder_ / "whole_phi.nrrd"));
+}
+
+void CliStartTest::levels_come_to_rest_one_after_the_other() {
+  const QStringList base = sphere_.arguments() + QStringList{"--json"};
+  const auto recipe = text(folder_ / "levels.json");
+  const auto first = text(folder_ / "levels.nrrd");
+  const Outcome outcome = must_run(base + QStringList{"--levels", "3", "--out", first, "--recipe", recipe,
+                                                      "--truth", text(sphere_ / "truth.nii.gz")});
+  const QJsonObject figures = json_of(outcome.out);
+  QVERIFY2(figures["dice"].toDouble() > 0.95, outcome.told());
+  const QJsonArray coarse = figures["coarse_levels"].toArray();
+  QCOMPARE(coarse.size(), 2);
+  for (const QJsonValue& level : coarse) {
+    QVERIFY(level["converged"].toBool());
+    QVERIFY(level["steps"].toInt() > 0);
+  }
+  QVERIFY(coarse[0]["size"][0].toInt() < coarse[1]["size"][0].toInt());
+  // Its recipe replays to the same voxels.
+  const auto second = text(folder_ / "replayed.nrrd");
+  QCOMPARE(must_run({"replay", recipe, text(sphere_ / "series"), "--out", second}).code, 0);
+  QCOMPARE(bytes_of(folder_ / "replayed.nrrd"), bytes_of(folder_ / "levels.nrrd"));
+  // A volume of so few voxels has one level by itself.
+  QCOMPARE(json_of(must_run(base + QStringList{"--levels", "auto"}).out)["coarse_levels"].toArray().size(),
+           0);
+
+  const auto refused = [&](const QString& levels) {
+    const Outcome wrong = run_cli(base + QStringList{"--levels", levels});
+    return wrong.code == 2 && wrong.err.contains("--levels");
+  };
+  for (const char* levels : {"0", "4", "many", "2.5", "-1", ""}) QVERIFY2(refused(levels), levels);
 }
 
 void CliStartTest::the_start_is_a_mask_or_a_threshold_or_a_fill() {
