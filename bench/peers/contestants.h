@@ -67,6 +67,8 @@ ContestantKind openvdb_tracker();
 ContestantKind dense_stencil();
 // The host executor; users get it with skip_quiet_pages.
 ContestantKind tidemark_host(bool skip_quiet_pages);
+// The same coarse to fine, for runs to convergence alone.
+ContestantKind tidemark_levels();
 
 // All of them, ours last.
 std::vector<ContestantKind> all_contestants();

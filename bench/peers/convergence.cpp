@@ -47,6 +47,17 @@ void add_goals(const Problem& problem, const std::map<std::string, const Entry*>
     report.at_least(problem.name + ": host against itk-parallel, time to convergence",
                     median(parallel->second->seconds) / seconds, 12);
   }
+  if (const auto levels = entries.find("host-levels"); levels != entries.end() && problem.seed) {
+    const double sooner = median(levels->second->seconds);
+    report.at_least(problem.name + ": host coarse to fine against itk-threshold, time to convergence",
+                    median(itk->second->seconds) / sooner, 60);
+    if (parallel != entries.end()) {
+      report.at_least(problem.name + ": host coarse to fine against itk-parallel, time to convergence",
+                      median(parallel->second->seconds) / sooner, 40);
+    }
+    report.at_least(problem.name + ": Dice of host coarse to fine with host",
+                    dice(levels->second->last.result, ours->second->last.result), 0.995, 4);
+  }
   report.at_least(problem.name + ": Dice of host with itk-threshold",
                   dice(ours->second->last.result, itk->second->last.result), 0.98, 4);
 }
@@ -58,6 +69,7 @@ Status measure_convergence(const Problem& problem, const Settings& settings, Rep
   for (ContestantKind& kind : all_contestants()) {
     if (kind.converge && wanted(settings, kind.name)) entries.push_back({std::move(kind), {}, {}});
   }
+  if (wanted(settings, "host")) entries.push_back({tidemark_levels(), {}, {}});
   for (int round = 0; round < settings.rounds; ++round) {
     for (Entry& entry : entries) {
       auto run = entry.kind.converge(problem);
