@@ -116,14 +116,18 @@ Status Inputs::suggest() {
   const bool needs_seed = !options_.start.given();
   const bool tent = options_.drive.uses_tent();
   if (!needs_seed && (!tent || (options_.target && options_.range)) && options_.alpha) return {};
-  std::optional<Index3> looked_at;
+  imaging::StartHints hints;
+  if (tent) {
+    hints.target = options_.target;
+    hints.range = options_.range;
+  }
   if (!options_.start.seeds.empty()) {
     const auto sphere = options_.start.seeds.front().resolve(results_.source->geometry);
     if (!sphere) return pass_on(sphere);
     const glm::dvec3 voxel = results_.source->geometry.to_voxel(sphere->centre_mm);
-    looked_at = glm::clamp(Index3(glm::round(voxel)), Index3(0), results_.source->geometry.size - Index3(1));
+    hints.seed = glm::clamp(Index3(glm::round(voxel)), Index3(0), results_.source->geometry.size - Index3(1));
   }
-  const auto found = imaging::suggest_start(*results_.source, looked_at, console_.progress());
+  const auto found = imaging::suggest_start(*results_.source, hints, console_.progress());
   if (console_.interrupted()) return cancelled_error();
   if (!found) return fail(found.error().kind, "--auto-start: {}", found.error().message);
   if (needs_seed) {

@@ -198,7 +198,7 @@ std::optional<Index3> most_even_voxel(const TypedVolume<Stored>& volume, const W
 
 template <class Stored>
 Result<SuggestedStart> suggest(const Volume& source, const TypedVolume<Stored>& volume,
-                               std::optional<Index3> seed, const Progress& progress) {
+                               const StartHints& hints, const Progress& progress) {
   const auto [lowest, highest] = source.range();
   if (!(highest > lowest)) {
     return fail(ErrorKind::input, "all voxels have the value {}: there is nothing to find", lowest);
@@ -206,6 +206,18 @@ Result<SuggestedStart> suggest(const Volume& source, const TypedVolume<Stored>& 
   ThreadPool pool;
   const Histogram values = histogram(volume, lowest, highest);
   const bool ct = looks_like_ct(source, values);
+  const double span = values.percentile(0.99) - values.percentile(0.01);
+  std::optional<Index3> seed = hints.seed;
+  if (!seed && hints.target) {
+    const double within = hints.range ? 0.5 * *hints.range : kSpanShare * span;
+    seed = most_even_voxel(volume, {*hints.target - within, *hints.target + within, kEvenEnough}, pool,
+                           progress);
+    if (!seed && !progress.cancelled()) {
+      return fail(ErrorKind::input,
+                  "no voxel in the middle half of the volume has a value within {:.6g} of {:.6g}", within,
+                  *hints.target);
+    }
+  }
   // The most even tissue of a body is often fat, and its most frequent value, too.
   if (!seed && ct)
     seed = most_even_voxel(volume, {kSoftTissueLow, kSoftTissueHigh, kEvenEnough}, pool, progress);
@@ -214,7 +226,6 @@ Result<SuggestedStart> suggest(const Volume& source, const TypedVolume<Stored>& 
   // Nothing of the kind in the middle: the middle itself.
   const Index3 voxel = seed.value_or(volume.geometry.size / std::int64_t{2});
   const Spread spread = neighbourhood(volume, voxel);
-  const double span = values.percentile(0.99) - values.percentile(0.01);
   const glm::dvec3 spacing = volume.geometry.spacing_mm;
 
   SuggestedStart suggestion;
@@ -228,9 +239,9 @@ Result<SuggestedStart> suggest(const Volume& source, const TypedVolume<Stored>& 
 
 }  // namespace
 
-Result<SuggestedStart> suggest_start(const Volume& volume, std::optional<Index3> seed,
+Result<SuggestedStart> suggest_start(const Volume& volume, const StartHints& hints,
                                      const Progress& progress) {
-  return with_type(volume, [&](const auto& typed) { return suggest(volume, typed, seed, progress); });
+  return with_type(volume, [&](const auto& typed) { return suggest(volume, typed, hints, progress); });
 }
 
 }  // namespace tidemark::imaging

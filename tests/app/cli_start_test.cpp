@@ -126,6 +126,10 @@ void CliStartTest::an_automatic_start_says_what_it_chose() {
   const Outcome given =
       must_run({"segment", text(sphere_ / "series"), "--auto-start", "--target", "790", "--steps", "1"});
   QVERIFY2(!given.out.contains("--target") && given.out.contains("Chose      --range"), given.told());
+  // The seed is sought where the target is.
+  const Outcome nowhere =
+      run_cli({"segment", text(sphere_ / "series"), "--auto-start", "--target", "90000", "--steps", "1"});
+  QVERIFY2(nowhere.failed_in_one_line(3) && nowhere.err.contains("90000"), nowhere.told());
   // T and epsilon are of no use to other functions.
   const Outcome other =
       must_run({"segment", text(sphere_ / "series"), "--auto-start", "--speed", "edges", "--steps", "1"});

@@ -266,6 +266,20 @@ class FiltersTest : public QObject {
     QVERIFY(std::abs(imaging::suggest_start(bright)->target - kFat) < 5.0);
   }
 
+  void a_known_target_is_where_the_suggestion_begins() {
+    const Volume body = body_like_ct();
+    const auto fat = imaging::suggest_start(body, {.target = kFat});
+    QCOMPARE(failure(fat), QString());
+    QVERIFY2(std::abs(fat->target - kFat) < 10.0, qPrintable(QString::number(fat->target)));
+    const auto organ = imaging::suggest_start(body, {.target = kOrgan, .range = 20.0});
+    QCOMPARE(failure(organ), QString());
+    QVERIFY2(std::abs(organ->target - kOrgan) < 10.0, qPrintable(QString::number(organ->target)));
+    const auto nowhere = imaging::suggest_start(body, {.target = 5000.0});
+    QVERIFY(!nowhere);
+    QCOMPARE(nowhere.error().kind, ErrorKind::input);
+    QVERIFY(nowhere.error().message.find("5000") != std::string::npos);
+  }
+
   void an_empty_mask_has_no_component_and_a_full_one_has_one() {
     Mask mask;
     mask.geometry.size = {3, 3, 3};
