@@ -9,6 +9,7 @@
 
 #include "core/result.h"
 #include "gpu/capabilities.h"
+#include "gpu/shader_source.h"
 
 namespace tidemark::gpu {
 
@@ -59,6 +60,10 @@ class Device {
     if (sink_) sink_(false, text);
   }
 
+  // Tests: called with each program before it is compiled. Its failure is the program's.
+  void on_program(std::function<Status(const ProgramSource&)> listener) { programs_ = std::move(listener); }
+  Status announce(const ProgramSource& program) const { return programs_ ? programs_(program) : Status(); }
+
   // For the handles. Nothing is deleted in a lost context: its objects went with it.
   void destroy(SharedObject kind, unsigned id);
   void destroy(ContextObject kind, unsigned id);
@@ -81,6 +86,7 @@ class Device {
   std::int64_t severe_messages_ = 0;
   std::int64_t handles_ = 0;
   std::function<void(bool, const std::string&)> sink_;
+  std::function<Status(const ProgramSource&)> programs_;
 };
 
 }  // namespace tidemark::gpu

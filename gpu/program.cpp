@@ -69,6 +69,7 @@ Result<ProgramHandle> link(Device& device, std::string_view label, const std::ve
 }  // namespace
 
 Result<Program> Program::compute(Device& device, std::string_view path, const Defines& defines) {
+  TIDEMARK_TRY(device.announce({{std::string(path)}, defines}));
   std::vector<ShaderHandle> shaders;
   auto shader = compile(device, GL_COMPUTE_SHADER, path, defines);
   if (!shader) return pass_on(shader);
@@ -82,6 +83,11 @@ Result<Program> Program::compute(Device& device, std::string_view path, const De
 
 Result<Program> Program::render(Device& device, std::string_view vertex, std::string_view geometry,
                                 std::string_view fragment, const Defines& defines) {
+  ProgramSource source{{}, defines};
+  for (const std::string_view path : {vertex, geometry, fragment}) {
+    if (!path.empty()) source.stages.emplace_back(path);
+  }
+  TIDEMARK_TRY(device.announce(source));
   std::vector<ShaderHandle> shaders;
   for (const auto& [stage, path] : {std::pair{GL_VERTEX_SHADER, vertex},
                                     {GL_GEOMETRY_SHADER, geometry},

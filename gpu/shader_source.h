@@ -21,6 +21,12 @@ using ShaderReader = std::function<Result<std::string>(std::string_view path)>;
 // else the files as they were when the program was built.
 Result<std::string> read_shader(std::string_view path);
 
+// A program as it is asked for.
+struct ProgramSource {
+  std::vector<std::string> stages;  // files, whose endings say what they are
+  Defines defines;                  // of all stages
+};
+
 // One text for the compiler.
 struct ShaderSource {
   std::string text;

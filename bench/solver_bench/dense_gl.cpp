@@ -2,7 +2,6 @@
 
 #include <chrono>
 
-#include "gpu/device.h"
 #include "gpu/program.h"
 #include "solver/gl/step_uniforms.h"
 #include "solver/model.h"
@@ -10,22 +9,20 @@
 
 namespace tidemark::bench {
 
-Result<DenseRun> run_dense_gl(const Volume& source, const solver::Parameters& parameters,
+Result<DenseRun> run_dense_gl(gpu::Device& device, const Volume& source, const solver::Parameters& parameters,
                               const solver::Field& phi, std::int64_t steps) {
-  auto device = gpu::Device::create_headless({});
-  if (!device) return pass_on(device);
   const solver::Model model(source.geometry, parameters,
                             solver::TentSpeed(std::make_shared<const Volume>(source), parameters));
-  auto program = gpu::Program::compute(**device, "bench/dense.comp", solver::step_defines(model));
+  auto program = gpu::Program::compute(device, "bench/dense.comp", solver::step_defines(model));
   if (!program) return pass_on(program);
   const std::int64_t bytes = source.geometry.voxel_count() * 4;
-  if (bytes > (*device)->capabilities().largest_storage_buffer) {
+  if (bytes > device.capabilities().largest_storage_buffer) {
     return fail(ErrorKind::capability, "a buffer of {} MB is needed; this driver allows {} MB", bytes >> 20,
-                (*device)->capabilities().largest_storage_buffer >> 20);
+                device.capabilities().largest_storage_buffer >> 20);
   }
   gpu::Buffer buffers[3];
   for (gpu::Buffer& buffer : buffers) {
-    auto made = gpu::Buffer::create(**device, bytes, "dense");
+    auto made = gpu::Buffer::create(device, bytes, "dense");
     if (!made) return pass_on(made);
     buffer = std::move(*made);
   }
@@ -52,7 +49,7 @@ Result<DenseRun> run_dense_gl(const Volume& source, const solver::Parameters& pa
   DenseRun result;
   result.steps = steps;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  TIDEMARK_TRY((*device)->check("computing the whole volume"));
+  TIDEMARK_TRY(device.check("computing the whole volume"));
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/volume.h"
+#include "gpu/device.h"
 #include "solver/field.h"
 #include "solver/parameters.h"
 
@@ -14,9 +15,8 @@ struct DenseRun {
   double seconds = 0.0;
 };
 
-// Computes `steps` steps from `phi` on a context of its own. Fails (ErrorKind::capability) without OpenGL 4.5
-// or where the volume does not fit a buffer.
-Result<DenseRun> run_dense_gl(const Volume& source, const solver::Parameters& parameters,
+// Computes `steps` steps from `phi`. Fails (ErrorKind::capability) where the volume does not fit a buffer.
+Result<DenseRun> run_dense_gl(gpu::Device& device, const Volume& source, const solver::Parameters& parameters,
                               const solver::Field& phi, std::int64_t steps);
 
 }  // namespace tidemark::bench

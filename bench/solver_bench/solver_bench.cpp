@@ -190,7 +190,9 @@ Status measure_spheres(const std::shared_ptr<const Volume>& source, const Settin
 Status measure_dense(const std::shared_ptr<const Volume>& source, const Settings& settings) {
   const solver::Field start = solver::Field::empty(source->geometry, solver::default_band(source->geometry));
   const std::int64_t steps = std::clamp<std::int64_t>(settings.steps / 20, 3, 100);
-  const auto run = bench::run_dense_gl(*source, parameters(), start, steps);
+  const auto device = gpu::Device::create_headless({});
+  if (!device) return pass_on(device);
+  const auto run = bench::run_dense_gl(**device, *source, parameters(), start, steps);
   if (!run) return pass_on(run);
   const double steps_per_second = static_cast<double>(run->steps) / run->seconds;
   fmt::print("dense, the whole volume on OpenGL\n  {:>8.1f} steps/s {:>12.1f} M updates/s\n",

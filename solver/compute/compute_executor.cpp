@@ -124,12 +124,7 @@ Status ComputeExecutor::compile_update() {
 
 void ComputeExecutor::set_layout(const gpu::Program& program) const {
   layout_.set_uniforms(program);
-  const Index3 shape = layout_.layout().page_shape();
-  // An endless band holds the whole volume awake.
-  const glm::dvec3 reach = std::isfinite(band())
-                               ? glm::ceil(glm::dvec3(band()) / (model_.spacing() * glm::dvec3(shape)))
-                               : glm::dvec3(layout_.layout().pages());
-  program.set("quiet_reach", glm::ivec3(reach));
+  program.set("quiet_reach", glm::ivec3(band_reach()));
 }
 
 // Tells an update kernel what stays the same for a run of steps.

@@ -23,8 +23,8 @@ struct ComputeControl {
   std::uint32_t free_tail;
   std::uint32_t free_tail_ready;
   std::uint32_t voxel_updates[2];
-  std::uint32_t squared_change[2];
-  std::uint32_t near_voxels;
+  std::uint32_t squared_change[3];
+  std::uint32_t near_voxels[2];
   std::uint32_t quiet_near_voxels;
   std::uint32_t quiet_pages;
   float surface_speed;
@@ -35,7 +35,7 @@ struct ComputeControl {
 
   [[nodiscard]] std::int64_t free_pages() const { return free_tail - free_head; }
 };
-static_assert(sizeof(ComputeControl) == 96);
+static_assert(sizeof(ComputeControl) == 104);
 
 struct ComputePageState {
   std::uint32_t flags;

@@ -1,6 +1,7 @@
 #include "solver/gl/gl_executor.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <utility>
 
 namespace tidemark::solver {
@@ -63,6 +64,12 @@ Status GlExecutor::set_constraints(std::shared_ptr<const Constraints> constraint
   if (set) return set;
   TIDEMARK_TRY(use_constraints(former, *phi));
   return set;
+}
+
+Index3 GlExecutor::band_reach() const {
+  const PageLayout& layout = layout_.layout();
+  const glm::dvec3 page = model_.spacing() * glm::dvec3(layout.page_shape());
+  return Index3(glm::min(glm::ceil(band() / page), glm::dvec3(layout.pages())));
 }
 
 Status GlExecutor::use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi) {

@@ -42,6 +42,10 @@ class GlExecutor : public ExecutorBase {
   // budget allows beside the textures. `copied`: the former state is among them.
   [[nodiscard]] Status check_budget(std::int64_t pages, std::int64_t state_bytes, bool copied = false) const;
 
+  // How many pages away along each axis the surface can be whose distance a page's voxels hold; no further
+  // than the volume goes, however far the band does.
+  [[nodiscard]] Index3 band_reach() const;
+
   std::shared_ptr<gpu::Device> device_;  // first: it outlives everything below
   ExecutorOptions options_;
   PackedLayout layout_;

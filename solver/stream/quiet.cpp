@@ -5,7 +5,6 @@
 // "Around" is as far as the band reaches: these pages are one slice thick, so that the surface on which a
 // page's values depend may lie several pages below or above it.
 #include <cmath>
-#include <glm/common.hpp>
 
 #include "solver/convergence.h"
 #include "solver/stream/pages_around.h"
@@ -20,15 +19,9 @@ void StreamExecutor::wake(PhysicalPage page) {
   active_list_is_stale_ = true;
 }
 
-// How many pages away the surface can be whose distance a page's voxels hold.
-Index3 StreamExecutor::band_reach() const {
-  const Index3 shape = layout_.layout().page_shape();
-  if (!std::isfinite(band())) return Index3(1);  // nothing sleeps then
-  return Index3(glm::ceil(glm::dvec3(band()) / (model_.spacing() * glm::dvec3(shape))));
-}
-
 void StreamExecutor::wake_around(PhysicalPage page) {
   info(page).woke_neighbours = true;
+  if (!std::isfinite(band())) return;  // nothing sleeps then
   all_within(band_reach(), table_.layout().page_coordinates(table_.virtual_page(page)),
              [&](Index3 coordinates) {
                const PhysicalPage other = table_.physical(coordinates);

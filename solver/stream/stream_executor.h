@@ -97,7 +97,6 @@ class StreamExecutor final : public GlExecutor {
 
   // Quiet pages (quiet.cpp).
   void wake(PhysicalPage page);
-  [[nodiscard]] Index3 band_reach() const;
   void wake_around(PhysicalPage page);
   void begin_window();
   Result<bool> finish_window();

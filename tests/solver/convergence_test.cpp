@@ -1,4 +1,5 @@
 // When a surface counts as stopped, row by row: what begins a new window of steps, and what keeps it open.
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 #include "executor_rows.h"
@@ -41,6 +42,23 @@ struct CreepingFront {
   }
 
   Geometry geometry = grid({64, 40, 40});
+  solver::Parameters parameters;
+};
+
+// Cells of a chessboard that turn inside out: phi is as steep as the band allows, and so it changes as much
+// in a step as it can.
+struct Turmoil {
+  explicit Turmoil(glm::dvec3 spacing) : geometry(grid({40, 37, 21}, spacing)) { parameters.alpha = 0.9; }
+  [[nodiscard]] bool is_inside(glm::dvec3 mm) const {
+    const glm::ivec3 cell(glm::floor(glm::round(mm / geometry.spacing_mm) / 3.0));
+    return (cell.x + cell.y + cell.z) % 2 == 0;
+  }
+  // With T = 0 and epsilon = 1, D is 1 and -1.
+  [[nodiscard]] std::shared_ptr<const Volume> source() const {
+    return volume_of(geometry, [this](glm::dvec3 mm) { return is_inside(mm) ? 0.0 : 2.0; });
+  }
+
+  Geometry geometry;
   solver::Parameters parameters;
 };
 
@@ -115,6 +133,26 @@ class ConvergenceTest : public QObject {
     QVERIFY(!report.converged);
     QCOMPARE(report.steps, std::int64_t{4 * solver::kConvergenceWindow});
     QVERIFY(tip() > before + 1.0);
+  }
+
+  void motion_is_measured_alike_at_any_spacing_data() { add_rows_with_host(); }
+  void motion_is_measured_alike_at_any_spacing() {
+    const Setting setting = this_row();
+    for (const glm::dvec3 spacing : {glm::dvec3(0.01), glm::dvec3(100.0), glm::dvec3(1.0, 1.0, 20.0),
+                                     glm::dvec3(20.0, 1.0, 1.0), glm::dvec3(0.01, 100.0, 0.01)}) {
+      const Turmoil scene(spacing);
+      double speed[2];
+      int i = 0;
+      for (const solver::ExecutorKind kind : {setting.kind, solver::ExecutorKind::reference}) {
+        const auto level_set = Setting{kind, setting.page_shape}.make(scene.source(), scene.parameters);
+        const double band = level_set->band();
+        set_phi(*level_set, scene.geometry,
+                [&](glm::dvec3 mm) { return scene.is_inside(mm) ? -band : band; });
+        speed[i++] = run(*level_set, solver::kConvergenceWindow).surface_speed;
+      }
+      qInfo("%g x %g x %g mm: speed %.5g and %.5g", spacing.x, spacing.y, spacing.z, speed[0], speed[1]);
+      QVERIFY(std::abs(speed[0] - speed[1]) < 1e-3 * speed[1]);
+    }
   }
 
   void all_executors_stop_at_the_same_step_data() { add_rows_with_host(); }

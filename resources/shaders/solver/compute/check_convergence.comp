@@ -14,16 +14,18 @@ void main() {
   control.list_is_rebuilt = !judge_motion || control.step_ran != 0u ? 1u : 0u;
   if (control.list_is_rebuilt == 0u) return;
   if (judge_motion) {
-    float squared = float(control.squared_change.y) * 256.0 + float(control.squared_change.x) / 16777216.0;
-    uint voxels = control.near_voxels + control.quiet_near_voxels * samples;
-    float mean = voxels == 0u ? 0.0 : squared / float(voxels);
+    float squared = float(control.squared_change[2]) * 1099511627776.0 +
+                    float(control.squared_change[1]) * 256.0 + float(control.squared_change[0]) / 16777216.0;
+    float voxels = float(control.near_voxels[1]) * 4294967296.0 + float(control.near_voxels[0]) +
+                   float(control.quiet_near_voxels) * float(samples);
+    float mean = voxels == 0.0 ? 0.0 : squared / voxels;
     float fastest = fastest_page_weight * fastest_page_weight * uintBitsToFloat(control.fastest_page);
     control.surface_speed = sqrt(max(mean, fastest)) / (2.0 * time_step);
     control.converged = control.surface_speed < converged_speed ? 1u : 0u;
   }
-  control.squared_change = uvec2(0u);
+  for (int i = 0; i < 3; ++i) control.squared_change[i] = 0u;
   control.fastest_page = 0u;
-  control.near_voxels = 0u;
+  control.near_voxels[0] = control.near_voxels[1] = 0u;
   control.quiet_near_voxels = 0u;
   control.quiet_pages = 0u;
   control.active_count = 0u;

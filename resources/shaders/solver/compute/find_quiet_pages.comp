@@ -13,9 +13,24 @@ bool is_still(int page) {
          page_state[page].change <= quiet_change;
 }
 
-void add_64(uint value) {
-  uint old = atomicAdd(control.squared_change.x, value);
-  if (old + value < old) atomicAdd(control.squared_change.y, 1u);
+// Of a page, more than this counts as this: a voxel's mean change is then some 8192 smallest spacings, and the surface
+// is as far from rest either way.
+const float kMostSquaredChange = 274877906944.0;  // 2^38
+
+// Of integers, the sum is the same in every order of the pages. 2^31 pages of 2^38 are below the 2^72 that it holds.
+void add_squared_change(float squared) {
+  float units = min(squared, kMostSquaredChange) * 16777216.0;
+  uint high = uint(units / 4294967296.0);
+  uint low = uint(units - float(high) * 4294967296.0);  // exact: `units` has 24 bits
+  uint old = atomicAdd(control.squared_change[0], low);
+  if (old + low < old) ++high;
+  old = atomicAdd(control.squared_change[1], high);
+  if (old + high < old) atomicAdd(control.squared_change[2], 1u);
+}
+
+void add_near_voxels(uint voxels) {
+  uint old = atomicAdd(control.near_voxels[0], voxels);
+  if (old + voxels < old) atomicAdd(control.near_voxels[1], 1u);
 }
 
 void main() {
@@ -28,13 +43,9 @@ void main() {
   int page = active_list[index];
   int number = inverse_table[page];
   if (number < 0) return;
-  atomicAdd(control.near_voxels, page_state[page].near_voxels);
-  // Eight samples of changes below 1 in a page's voxels: 64 bits hold any sum.
+  add_near_voxels(page_state[page].near_voxels);
   float squared = page_state[page].squared_change;
-  add_64(uint(min(fract(squared) * 16777216.0, 16777215.0)));
-  uint whole = uint(squared);
-  atomicAdd(control.squared_change.y, whole >> 8);
-  add_64((whole & 255u) << 24);
+  add_squared_change(squared);
   uint voxels = page_state[page].near_voxels;
   if (voxels > 0u) atomicMax(control.fastest_page, floatBitsToUint(squared / float(voxels)));
   // A page that waits for a page must not sleep over it.

@@ -29,8 +29,8 @@ layout(std430, binding = 3) coherent buffer Control {
   uint free_tail;
   uint free_tail_ready; // entries before this were there when the dispatch began
   uvec2 voxel_updates;  // 64 bits, low word first
-  uvec2 squared_change; // of the window, 64 bits in units of 2^-24
-  uint near_voxels;     // of the window, active pages
+  uint squared_change[3]; // of the window, 96 bits in units of 2^-24, low word first
+  uint near_voxels[2];    // of the window, active pages: 64 bits, low word first
   uint quiet_near_voxels; // in quiet pages, of one step
   uint quiet_pages;
   float surface_speed;

@@ -16,7 +16,7 @@ uniform float near;  // |phi| of a voxel beside the surface is at most this
 
 shared uint group_code;
 shared uint group_largest_change;
-shared uint group_squared_change;  // in units of 2^-24
+shared float squared_changes[PAGE_X * (PAGE_Y / BLOCK)];  // of each invocation
 shared uint group_near_voxels;
 
 // Of the invocation.
@@ -99,7 +99,6 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) {
     group_code = 0u;
     group_largest_change = 0u;
-    group_squared_change = 0u;
     group_near_voxels = 0u;
   }
   barrier();
@@ -115,7 +114,7 @@ void main() {
   atomicOr(group_code, code);
   if (measure_motion) {
     atomicMax(group_largest_change, floatBitsToUint(largest_change));
-    atomicAdd(group_squared_change, uint(squared_change * 16777216.0));
+    squared_changes[gl_LocalInvocationIndex] = squared_change;
     atomicAdd(group_near_voxels, near_voxels);
   }
   barrier();
@@ -131,7 +130,9 @@ void main() {
 #ifndef MEASURE_ONLY
   if (measure_motion) {
     page_state[page].change += uintBitsToFloat(group_largest_change);
-    page_state[page].squared_change += float(group_squared_change) / 16777216.0;
+    float sum = 0.0;  // in the same order every time, and with room for changes of any size
+    for (int i = 0; i < squared_changes.length(); ++i) sum += squared_changes[i];
+    page_state[page].squared_change += sum;
     page_state[page].near_voxels += group_near_voxels;
   }
   uint voxels = uint((last.x + 1) * (last.y + 1) * (last.z + 1));

@@ -1,0 +1,23 @@
+// GLSL's reference compiler, glslangValidator.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gpu/shader_source.h"
+
+namespace tidemark::test {
+
+struct Compiled {
+  std::vector<std::string> complaints;  // errors and warnings: the program, and the compiler's own words
+  std::map<std::string, std::set<int>> lines;  // of each file, those that were left to compile
+};
+
+// Compiles and links the programs as GLSL of a version. Fails (ErrorKind::capability) where there is no
+// glslangValidator.
+Result<Compiled> compile_by_reference(const std::vector<gpu::ProgramSource>& programs,
+                                      const std::string& version);
+
+}  // namespace tidemark::test

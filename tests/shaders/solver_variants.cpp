@@ -1,0 +1,93 @@
+#include "bench/solver_bench/dense_gl.h"
+#include "gpu/device.h"
+#include "solver/executor.h"
+#include "solver/model.h"
+#include "tests/shaders/variants.h"
+#include "tests/solver/formula_speed.h"
+
+namespace tidemark::test {
+namespace {
+
+struct Driver {
+  std::shared_ptr<gpu::Device> device;
+  std::vector<gpu::ProgramSource>& programs;
+
+  Driver(const Driver&) = delete;
+  Driver(gpu::GlVersion version, bool as_gpu, std::vector<gpu::ProgramSource>& found) : programs(found) {
+    auto made = gpu::Device::create_headless({version, false, as_gpu});
+    if (!made) qFatal("%s", made.error().message.c_str());
+    device = std::move(*made);
+    device->on_program([this](const gpu::ProgramSource& program) -> Status {
+      programs.push_back(program);
+      return {};
+    });
+  }
+};
+
+template <class Scalar>
+std::shared_ptr<const Volume> source_with(glm::dvec3 spacing) {
+  auto volume = std::make_shared<Volume>();
+  volume->geometry.size = {20, 18, 9};
+  volume->geometry.spacing_mm = spacing;
+  volume->voxels = std::vector<Scalar>(static_cast<std::size_t>(volume->geometry.voxel_count()));
+  return volume;
+}
+
+void must(const Status& status) {
+  if (!status) qFatal("%s", status.error().message.c_str());
+}
+
+// All programs of an executor on a source.
+void drive(solver::ExecutorKind kind, const std::shared_ptr<const Volume>& source,
+           const solver::ExecutorOptions& options) {
+  auto walls = std::make_shared<solver::Constraints>(source->geometry.size);
+  walls->set({{3, 4, 5}}, solver::Constraint::wall);
+  const auto speed = [](glm::dvec3) { return 0.5; };
+  const auto flow = [](glm::dvec3) { return glm::vec3(0.1F); };
+  for (const solver::Scheme scheme : {solver::Scheme::split, solver::Scheme::paper}) {
+    solver::Parameters parameters;
+    parameters.scheme = scheme;
+    auto level_set = solver::make_executor(kind, source, parameters, options);
+    if (!level_set) qFatal("%s", level_set.error().message.c_str());
+    for (const bool constrained : {false, true}) {
+      must((*level_set)->set_constraints(constrained ? walls : nullptr));
+      must((*level_set)->set_speed(nullptr));
+      must((*level_set)->set_speed(std::make_shared<FormulaSpeed>(speed)));
+      must((*level_set)->set_speed(std::make_shared<FormulaSpeed>(speed, flow, 0.2)));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<gpu::ProgramSource> solver_variants() {
+  std::vector<gpu::ProgramSource> programs;
+  const Driver gl33(gpu::GlVersion::gl33, false, programs);
+  const Driver processor(gpu::GlVersion::gl45, false, programs);
+  const Driver gpu(gpu::GlVersion::gl45, true, programs);
+  for (const glm::dvec3 spacing : {glm::dvec3(1.0), glm::dvec3(1.0, 1.0, 2.0)}) {
+    for (const auto& source : {source_with<std::int16_t>(spacing), source_with<std::uint16_t>(spacing),
+                               source_with<float>(spacing)}) {
+      solver::ExecutorOptions options;
+      options.device = gl33.device;
+      drive(solver::ExecutorKind::stream, source, options);
+      for (const Index3 shape : {Index3(8), Index3(16, 16, 1)}) {
+        options.page_shape = shape;
+        for (const Driver* driver : {&processor, &gpu}) {
+          options.device = driver->device;
+          drive(solver::ExecutorKind::compute, source, options);
+        }
+      }
+      for (const solver::Scheme scheme : {solver::Scheme::split, solver::Scheme::paper}) {
+        solver::Parameters parameters;
+        parameters.scheme = scheme;
+        const auto start = solver::Field::empty(source->geometry, solver::default_band(source->geometry));
+        const auto dense = bench::run_dense_gl(*processor.device, *source, parameters, start, 1);
+        if (!dense) qFatal("%s", dense.error().message.c_str());
+      }
+    }
+  }
+  return programs;
+}
+
+}  // namespace tidemark::test
