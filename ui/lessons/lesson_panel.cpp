@@ -12,6 +12,7 @@
 #include "ui/lessons/lesson_part_view.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/relative_font.h"
 
 namespace tidemark::ui {
 namespace {
@@ -51,10 +52,7 @@ QWidget* LessonPanel::make_head() {
   auto* title = new QLabel(QString::fromStdString(course_.lesson().title));
   title->setTextFormat(Qt::PlainText);
   title->setWordWrap(true);
-  QFont font = title->font();
-  font.setPointSizeF(font.pointSizeF() * kTitleSize);
-  font.setBold(true);
-  title->setFont(font);
+  set_relative_font(*title, kTitleSize, QFont::Bold);
   parts_ = new QComboBox;
   parts_->setAccessibleName(tr("Parts of the lesson"));
   parts_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);

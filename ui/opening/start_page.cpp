@@ -13,6 +13,7 @@
 #include "ui/opening/card_button.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/phantom_menu.h"
+#include "ui/widgets/relative_font.h"
 
 namespace tidemark::ui {
 namespace {
@@ -24,10 +25,7 @@ constexpr std::string_view kFirstToTry = "tumour";
 
 QLabel* label(const QString& text, double size, bool bold, QWidget* parent) {
   auto* made = new QLabel(text, parent);
-  QFont font = made->font();
-  font.setPointSizeF(font.pointSizeF() * size);
-  font.setWeight(bold ? QFont::DemiBold : QFont::Normal);
-  made->setFont(font);
+  set_relative_font(*made, size, bold ? QFont::DemiBold : QFont::Normal);
   made->setWordWrap(true);
   return made;
 }

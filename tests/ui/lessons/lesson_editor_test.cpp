@@ -359,6 +359,15 @@ class LessonEditorTest : public QObject {
     click(*editor, "&Take from the case");
     QTRY_VERIFY_WITH_TIMEOUT(editor->lesson().start.has_value(), kPatience);
     QCOMPARE(editor->lesson().parameters.alpha, 0.3125);
+
+    // A mask is of one grid, and no lesson file has one.
+    document::Start painted;
+    painted.from = document::MaskStart{std::make_shared<const Mask>(proxy->state().phi->mask()), "mine"};
+    proxy->begin(painted);
+    QVERIFY(idle());
+    click(*editor, "&Take from the case");
+    QTRY_VERIFY_WITH_TIMEOUT(says(*editor, "The case begins with a mask"), kPatience);
+    QVERIFY(editor->lesson().start->seeds == start.seeds);
     proxy.reset();
     click(*editor, "&Take from the case");
     QTRY_VERIFY(says(*editor, "No case is open."));

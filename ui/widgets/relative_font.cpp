@@ -1,0 +1,43 @@
+#include "ui/widgets/relative_font.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QWidget>
+
+namespace tidemark::ui {
+namespace {
+
+// A child of the widget.
+class RelativeFont : public QObject {
+ public:
+  RelativeFont(QWidget& widget, double size, QFont::Weight weight)
+      : QObject(&widget), widget_(widget), size_(size), weight_(weight) {
+    widget.installEventFilter(this);
+    apply();
+  }
+
+  bool eventFilter(QObject* /*watched*/, QEvent* event) override {
+    if (event->type() == QEvent::ApplicationFontChange) apply();
+    return false;
+  }
+
+ private:
+  void apply() {
+    QFont font = QApplication::font(&widget_);
+    font.setPointSizeF(font.pointSizeF() * size_);
+    font.setWeight(weight_);
+    widget_.setFont(font);
+  }
+
+  QWidget& widget_;
+  double size_;
+  QFont::Weight weight_;
+};
+
+}  // namespace
+
+void set_relative_font(QWidget& widget, double size, QFont::Weight weight) {
+  new RelativeFont(widget, size, weight);
+}
+
+}  // namespace tidemark::ui
