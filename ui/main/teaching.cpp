@@ -37,6 +37,7 @@ Teaching::Teaching(MainWindow& window) : QObject(&window), window_(window), norm
 Teaching::~Teaching() = default;
 
 void Teaching::fill(QMenu& menu) {
+  menu_ = &menu;
   int number = 0;
   for (const document::OwnLesson& own : document::own_lessons()) {
     const auto lesson = document::Lesson::parse(own.text, std::string(own.name));
@@ -64,6 +65,10 @@ void Teaching::fill(QMenu& menu) {
   auto* large = menu.addAction(tr("&Projector: large type"));
   large->setCheckable(true);
   connect(large, &QAction::toggled, this, &Teaching::set_large);
+}
+
+void Teaching::show_list(QPoint at) {
+  menu_->popup(at);
 }
 
 void Teaching::ask_and_open() {

@@ -108,6 +108,8 @@ QWidget* StartPage::build_opening() {
   column->addWidget(file);
   column->addWidget(label(tr("Or drop a folder or a file anywhere on this page."), 1.0, false, part));
   column->addSpacing(14);
+  column->addWidget(build_lessons());
+  column->addSpacing(14);
 
   auto* heading = new QHBoxLayout;
   heading->addWidget(label(tr("Recent studies"), 1.3, true, part), 1);
@@ -127,6 +129,20 @@ QWidget* StartPage::build_opening() {
   recent_list_->setSpacing(8);
   column->addLayout(recent_list_);
   column->addStretch(1);
+  return part;
+}
+
+QWidget* StartPage::build_lessons() {
+  auto* part = new QWidget(content_);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(8);
+  column->addWidget(label(tr("Learn how it works"), 1.3, true, part));
+  auto* card = new CardButton(tr("Do a lesson…"), tr("Predict, try, measure, and read why."), part);
+  card->setObjectName("lessons");
+  connect(card, &CardButton::clicked, this,
+          [this, card] { emit lessons_wanted(card->mapToGlobal(card->rect().bottomLeft())); });
+  column->addWidget(card);
   return part;
 }
 

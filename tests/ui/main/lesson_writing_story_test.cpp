@@ -3,6 +3,7 @@
 #include <QDockWidget>
 #include <QFile>
 #include <QLabel>
+#include <QMenu>
 #include <QMenuBar>
 #include <QSignalSpy>
 
@@ -19,6 +20,7 @@ class LessonWritingStoryTest : public QObject {
 
  private slots:
   void a_lesson_is_written_opened_and_done();
+  void the_start_page_leads_to_the_lessons();
   void large_type_reaches_every_text_and_outlives_the_theme();
 
  private:
@@ -106,6 +108,22 @@ void LessonWritingStoryTest::a_lesson_is_written_opened_and_done() {
   const QByteArray written = table.readAll();
   QVERIFY2(written.contains("\"What becomes of it?\",\"It vanishes\",\"It vanishes\",yes"),
            written.constData());
+}
+
+void LessonWritingStoryTest::the_start_page_leads_to_the_lessons() {
+  Desktop desktop(story_executor(), {1366, 768});
+  auto* card = desktop.window().findChild<QAbstractButton*>("lessons");
+  QVERIFY(card);
+  desktop.screenshot("start-page");
+  Student::click(*card);
+  QVERIFY(Desktop::wait_for([] { return QApplication::activePopupWidget() != nullptr; }));
+  auto* list = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+  QVERIFY(list);
+  QAction* lesson = desktop.menu_entry("Teach", "3 ");
+  QTest::mouseClick(list, Qt::LeftButton, {}, list->actionGeometry(lesson).center());
+  QVERIFY(desktop.window().teaching().course());
+  QCOMPARE(desktop.window().teaching().course()->lesson().title,
+           document::Lesson::parse(document::own_lessons()[2].text, "")->title);
 }
 
 // Each text of the panel and of the menu bar, as high as it was, times the factor.
