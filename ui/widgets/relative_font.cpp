@@ -17,7 +17,8 @@ class RelativeFont : public QObject {
   }
 
   bool eventFilter(QObject* /*watched*/, QEvent* event) override {
-    if (event->type() == QEvent::ApplicationFontChange) apply();
+    // Under a style sheet no other event says so.
+    if (event->type() == QEvent::StyleChange) apply();
     return false;
   }
 
@@ -26,7 +27,7 @@ class RelativeFont : public QObject {
     QFont font = QApplication::font(&widget_);
     font.setPointSizeF(font.pointSizeF() * size_);
     font.setWeight(weight_);
-    widget_.setFont(font);
+    if (font != widget_.font()) widget_.setFont(font);
   }
 
   QWidget& widget_;

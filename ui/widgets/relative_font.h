@@ -7,7 +7,8 @@ class QWidget;
 
 namespace tidemark::ui {
 
-// The application's font, `size` times as large; also after the application's has changed.
+// The application's font, `size` times as large; also after that has changed and the style sheet was set
+// anew.
 void set_relative_font(QWidget& widget, double size, QFont::Weight weight = QFont::Normal);
 
 }  // namespace tidemark::ui

@@ -7,7 +7,6 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/main/student.h"
 #include "ui/lessons/lesson_text.h"
-#include "ui/main/teaching.h"
 
 namespace tidemark::test {
 namespace {

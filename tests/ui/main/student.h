@@ -8,6 +8,7 @@
 #include "engine/lesson_course.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/lessons/lesson_panel.h"
+#include "ui/main/teaching.h"
 
 namespace tidemark::test {
 
@@ -20,7 +21,9 @@ class Student {
 
   // The lesson with that number in the menu Teach.
   void open_own(int number);
-  [[nodiscard]] const engine::LessonCourse& course() const { return *desktop_.window().teaching().course(); }
+  [[nodiscard]] const engine::LessonCourse& course() const {
+    return *desktop_.window().teaching().course();
+  }
   [[nodiscard]] ui::LessonPanel* panel() const;
 
   void choose(std::size_t choice);
@@ -40,7 +43,7 @@ class Student {
   // Scrolls there first.
   static void click(QWidget& widget, QPoint at);
   static void click(QWidget& widget) { click(widget, widget.rect().center()); }
-  // Types a name into the next dialog of files, and presses Return.
+  // Enters a name in the next dialog of files, and presses Return.
   static void name_file(const std::filesystem::path& file);
 
  private:
