@@ -7,6 +7,7 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "ui/lessons/hand_in_box.h"
 #include "ui/lessons/lesson_part_view.h"
@@ -97,10 +98,20 @@ void LessonPanel::show_part() {
   scroll_->setWidget(content);  // deletes the one before
   scroll_->verticalScrollBar()->setValue(0);
   message_->hide();
+  was_done_ = course_.done(course_.index());
+}
+
+// What has just appeared would be below the panel's end.
+void LessonPanel::show_outcome() {
+  if (QWidget* content = scroll_->widget()) content->layout()->activate();
+  const int top = view_->outcome()->mapTo(scroll_->widget(), QPoint()).y();
+  scroll_->verticalScrollBar()->setValue(top);
 }
 
 void LessonPanel::follow() {
   if (view_->index() != course_.index()) show_part();
+  if (!std::exchange(was_done_, course_.done(course_.index())) && was_done_)
+    QMetaObject::invokeMethod(this, &LessonPanel::show_outcome, Qt::QueuedConnection);
   const std::size_t count = course_.lesson().parts.size();
   for (std::size_t i = 0; i < count; ++i) {
     const QString title = QString::fromStdString(course_.lesson().parts[i].title);

@@ -97,7 +97,8 @@ Desktop::Desktop(solver::ExecutorKind executor, QSize size, bool use_opengl) {
   QSettings::setDefaultFormat(QSettings::IniFormat);
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
                      QString::fromStdString(home_.path().string()));
-  ui::apply_theme(*qApp, ui::Theme::light);
+  const bool dark = qgetenv("TIDEMARK_STORY_THEME") == "dark";
+  ui::apply_theme(*qApp, dark ? ui::Theme::dark : ui::Theme::light);
   engine_ = std::make_unique<engine::Engine>(use_opengl);
   window_ = std::make_unique<ui::MainWindow>(*engine_);
   window_->set_executor(executor);

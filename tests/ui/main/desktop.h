@@ -56,7 +56,8 @@ struct PhiTraffic {
 };
 
 // Settings, recovery and everything else of this program goes into a folder of its own that is gone after it.
-// At the end it tells which event kept the user interface longest since the window was there.
+// TIDEMARK_STORY_THEME=dark shows all in the dark theme. At the end it tells which event kept the user
+// interface longest since the window was there.
 class Desktop {
  public:
   explicit Desktop(solver::ExecutorKind executor, QSize size = {1280, 800}, bool use_opengl = true);

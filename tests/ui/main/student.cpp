@@ -76,6 +76,8 @@ void Student::measure() {
   click(*wanted);
   const std::size_t part = course().index();
   QVERIFY(Desktop::wait_for([&] { return course().done(part); }, kLessonPatience));
+  // The outcome comes into sight by itself.
+  QVERIFY(Desktop::wait_for([&] { return sees("as expected"); }));
 }
 
 void Student::go_on() {
@@ -88,6 +90,13 @@ void Student::go_on() {
 bool Student::reads(const QString& text) const {
   for (const QLabel* label : panel()->findChildren<QLabel*>()) {
     if (label->isVisibleTo(panel()) && label->text() == text) return true;
+  }
+  return false;
+}
+
+bool Student::sees(const QString& text) const {
+  for (const QLabel* label : panel()->findChildren<QLabel*>()) {
+    if (label->text() == text && !label->visibleRegion().isEmpty()) return true;
   }
   return false;
 }

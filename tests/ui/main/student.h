@@ -21,9 +21,7 @@ class Student {
 
   // The lesson with that number in the menu Teach.
   void open_own(int number);
-  [[nodiscard]] const engine::LessonCourse& course() const {
-    return *desktop_.window().teaching().course();
-  }
+  [[nodiscard]] const engine::LessonCourse& course() const { return *desktop_.window().teaching().course(); }
   [[nodiscard]] ui::LessonPanel* panel() const;
 
   void choose(std::size_t choice);
@@ -33,6 +31,7 @@ class Student {
   void go_on();  // to the next part
   // Whether a text can be read on the panel, by scrolling at most.
   [[nodiscard]] bool reads(const QString& text) const;
+  [[nodiscard]] bool sees(const QString& text) const;  // without scrolling
 
   void sign(const QString& name);
   // By that button and the dialog of files.
