@@ -1,6 +1,7 @@
 #include "ui/lessons/lesson_panel.h"
 
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -103,7 +104,7 @@ void LessonPanel::show_part() {
 
 // What has just appeared would be below the panel's end.
 void LessonPanel::show_outcome() {
-  if (QWidget* content = scroll_->widget()) content->layout()->activate();
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);  // it has no place yet
   const int top = view_->outcome()->mapTo(scroll_->widget(), QPoint()).y();
   scroll_->verticalScrollBar()->setValue(top);
 }

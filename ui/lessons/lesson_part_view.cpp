@@ -79,7 +79,7 @@ void LessonPartView::add_question() {
   }
   choices_ = new QButtonGroup(this);
   auto* grid = new QGridLayout;
-  grid->setHorizontalSpacing(kSpaceTight);
+  grid->setHorizontalSpacing(0);
   grid->setVerticalSpacing(kSpaceTight);
   grid->setColumnStretch(1, 1);
   for (std::size_t i = 0; i < question.choices.size(); ++i) {

@@ -128,7 +128,7 @@ QTabBar::tab:top:selected { border-bottom-color: %4; }
 QTabBar::tab:bottom:selected { border-top-color: %4; }
 QTabBar::tab:left:selected { border-right-color: %4; }
 QTabBar::tab:right:selected { border-left-color: %4; }
-QDockWidget::title { background: %2; padding: 4px 8px; font-size: %7pt; }
+QDockWidget::title { background: %2; padding: 4px 8px; }
 QMainWindow::separator { background: transparent; width: 5px; height: 5px; }
 QMainWindow::separator:hover { background: %4; }
 QGroupBox { border: none; border-top: 1px solid %1; margin-top: 1.3em; padding-top: 4px; }
@@ -147,8 +147,7 @@ QString style_sheet(const QPalette& palette) {
   return QString::fromLatin1(kStyleSheet)
       .arg(palette.color(QPalette::Mid).name(), palette.color(QPalette::Midlight).name(),
            chosen.name(QColor::HexArgb), highlight.name(), palette.color(QPalette::ToolTipBase).name(),
-           palette.color(QPalette::ToolTipText).name())
-      .arg(QApplication::font().pointSizeF());
+           palette.color(QPalette::ToolTipText).name());
 }
 
 }  // namespace

@@ -73,9 +73,6 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
     window_.tabifyDockWidget(docks[next - 1], docks[next]);
   window_.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::East);
   window_.resizeDocks({docks[0]}, {kWidth}, Qt::Horizontal);
-  // In large type a name of one letter says nothing: the tabs scroll.
-  for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly))
-    bar->setElideMode(Qt::ElideNone);
   docks[0]->raise();
   // For lectures, and as a window of its own as wide as its columns.
   docks.back()->hide();

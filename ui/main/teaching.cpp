@@ -12,12 +12,10 @@
 #include "engine/lesson_course.h"
 #include "ui/lessons/lesson_editor.h"
 #include "ui/lessons/lesson_panel.h"
-#include "ui/look/theme.h"
 #include "ui/main/case_files.h"
 #include "ui/main/case_head.h"
 #include "ui/main/case_window.h"
 #include "ui/main/main_window.h"
-#include "ui/settings.h"
 
 namespace tidemark::ui {
 namespace {
@@ -191,7 +189,7 @@ void Teaching::set_large(bool large) {
   QFont font = normal_;
   if (large) font.setPointSizeF(font.pointSizeF() * kLargeType);
   QApplication::setFont(font);
-  apply_theme(*qApp, settings::theme().get());  // widgets under a style sheet look at the font only then
+  qApp->setStyleSheet(qApp->styleSheet());  // widgets under a style sheet look at the font only then
 }
 
 }  // namespace tidemark::ui
