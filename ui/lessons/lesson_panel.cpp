@@ -21,6 +21,11 @@ namespace {
 
 constexpr double kTitleSize = 1.3;  // of the font
 
+// What was just shown has no place yet.
+void give_places() {
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);
+}
+
 }  // namespace
 
 LessonPanel::LessonPanel(engine::LessonCourse& course, QWidget* parent) : QWidget(parent), course_(course) {
@@ -94,7 +99,14 @@ void LessonPanel::show_part() {
   view_ = new LessonPartView(course_);
   column->addWidget(view_);
   const bool last = course_.index() + 1 == course_.lesson().parts.size();
-  if (last) column->addWidget(new HandInBox(course_));
+  if (last) {
+    auto* hand_in = new HandInBox(course_);
+    column->addWidget(hand_in);
+    connect(hand_in, &HandInBox::said, this, [this] {
+      give_places();
+      scroll_->verticalScrollBar()->setValue(scroll_->verticalScrollBar()->maximum());
+    });
+  }
   column->addStretch(1);
   scroll_->setWidget(content);  // deletes the one before
   scroll_->verticalScrollBar()->setValue(0);
@@ -104,9 +116,8 @@ void LessonPanel::show_part() {
 
 // What has just appeared would be below the panel's end.
 void LessonPanel::show_outcome() {
-  QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);  // it has no place yet
-  const int top = view_->outcome()->mapTo(scroll_->widget(), QPoint()).y();
-  scroll_->verticalScrollBar()->setValue(top);
+  give_places();
+  scroll_->verticalScrollBar()->setValue(view_->outcome()->mapTo(scroll_->widget(), QPoint()).y());
 }
 
 void LessonPanel::follow() {

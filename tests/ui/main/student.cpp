@@ -130,7 +130,7 @@ void Student::hand_in(const QString& save, const std::filesystem::path& file) {
   name_file(file);
   click(*button(save));
   const QString wrote = QStringLiteral("Wrote ") + QString::fromStdString(file.string());
-  QVERIFY(Desktop::wait_for([&] { return reads(wrote); }, kLessonPatience));
+  QVERIFY(Desktop::wait_for([&] { return sees(wrote); }, kLessonPatience));
 }
 
 void Student::end() {
