@@ -16,6 +16,7 @@
 #include "ui/main/case_head.h"
 #include "ui/main/case_window.h"
 #include "ui/main/main_window.h"
+#include "ui/widgets/relative_font.h"
 
 namespace tidemark::ui {
 namespace {
@@ -109,6 +110,7 @@ void Teaching::begin(document::Lesson lesson, const std::filesystem::path& folde
   if (!dock_) {
     dock_ = new QDockWidget(tr("Lesson"), &window_);
     dock_->setObjectName("lesson");
+    let_title_follow_font(*dock_);
     dock_->setMinimumWidth(kWidth);
     window_.addDockWidget(Qt::LeftDockWidgetArea, dock_);
   }

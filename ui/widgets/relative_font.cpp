@@ -1,6 +1,7 @@
 #include "ui/widgets/relative_font.h"
 
 #include <QApplication>
+#include <QDockWidget>
 #include <QEvent>
 #include <QWidget>
 
@@ -39,6 +40,13 @@ class RelativeFont : public QObject {
 
 void set_relative_font(QWidget& widget, double size, QFont::Weight weight) {
   new RelativeFont(widget, size, weight);
+}
+
+// As long as it has none of its own, Qt draws the title with the font of the time when the dock was made.
+void let_title_follow_font(QDockWidget& dock) {
+  QFont own;
+  own.setStyleHint(QFont::System);  // nothing is seen of it
+  dock.setFont(own);
 }
 
 }  // namespace tidemark::ui

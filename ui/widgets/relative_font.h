@@ -1,8 +1,9 @@
-// Texts larger than the others, whatever size these have.
+// Fonts that follow the one of the application when that changes, as for a projector.
 #pragma once
 
 #include <QFont>
 
+class QDockWidget;
 class QWidget;
 
 namespace tidemark::ui {
@@ -10,5 +11,8 @@ namespace tidemark::ui {
 // The application's font, `size` times as large; also after that has changed and the style sheet was set
 // anew.
 void set_relative_font(QWidget& widget, double size, QFont::Weight weight = QFont::Normal);
+
+// Its title has the application's font, also after that has changed.
+void let_title_follow_font(QDockWidget& dock);
 
 }  // namespace tidemark::ui

@@ -149,11 +149,26 @@ void LessonWritingStoryTest::large_type_reaches_every_text_and_outlives_the_them
     }
     return QString();
   };
+  // How far the title of the panel reaches, in pixels.
+  const auto title_width = [&] {
+    auto* dock = desktop.window().findChild<QDockWidget*>("lesson");
+    const QImage title = dock->grab(QRect(0, 0, dock->width() / 2, dock->widget()->y())).toImage();
+    int width = 0;
+    for (int y = 2; y < title.height() - 2; ++y) {
+      for (int x = 2; x < title.width(); ++x) {
+        if (title.pixelColor(x, y) != title.pixelColor(2, 2)) width = std::max(width, x);
+      }
+    }
+    return width;
+  };
+  const int usual_width = title_width();
   const std::map<QString, int> usual = heights();
   QAction* projector = desktop.menu_entry("Teach", "Projector");
   desktop.choose("Teach", projector);
   QVERIFY(projector->isChecked());
   QCOMPARE(left_behind(usual), QString());
+  QVERIFY2(title_width() > 1.3 * usual_width,
+           qPrintable(QString("%1, before %2").arg(title_width()).arg(usual_width)));
   desktop.screenshot("projector-light");
   desktop.window().actions().themes->actions().at(static_cast<int>(ui::Theme::dark))->trigger();
   QCOMPARE(left_behind(usual), QString());
