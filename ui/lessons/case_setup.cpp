@@ -27,19 +27,22 @@ Start own_start(const engine::LoadedStudy& study) {
   return start;
 }
 
-// Masks and fields are compared by their address.
+// Masks and saved level sets are of one study's grid: lesson files have none.
+bool can_be_written(const Start& start) {
+  return !std::holds_alternative<document::MaskStart>(start.from) &&
+         !std::holds_alternative<document::FieldStart>(start.from);
+}
+
 bool is_same(const Start& a, const Start& b) {
   if (a.from.index() != b.from.index() || a.seeds != b.seeds || a.erasers != b.erasers) return false;
   return std::visit(
       [&](const auto& one) {
         using Kind = std::decay_t<decltype(one)>;
-        const auto& other = std::get<Kind>(b.from);
-        if constexpr (std::is_same_v<Kind, document::MaskStart>) {
-          return one.mask == other.mask && one.limit == other.limit;
-        } else if constexpr (std::is_same_v<Kind, document::FieldStart>) {
-          return one.phi == other.phi;
+        if constexpr (std::is_same_v<Kind, document::MaskStart> ||
+                      std::is_same_v<Kind, document::FieldStart>) {
+          return false;
         } else {
-          return one == other;
+          return one == std::get<Kind>(b.from);
         }
       },
       a.from);
@@ -68,7 +71,15 @@ void add_remarks(const CaseSetup& setup, QStringList& said) {
   }
 }
 
-void take_start(const CaseSetup& setup, const Start* inherited, std::optional<Start>& start) {
+void take_start(const CaseSetup& setup, const Start* inherited, std::optional<Start>& start,
+                QStringList& said) {
+  if (!can_be_written(setup.start)) {
+    said << text(QT_TRANSLATE_NOOP(
+        "CaseSetup",
+        "The case begins with a mask or a saved level set, which a lesson does not hold: begin the case with "
+        "seeds, a threshold or a flood."));
+    return;
+  }
   const Start& without = inherited != nullptr ? *inherited : setup.phantoms_own;
   start.reset();
   if (!is_same(setup.start, without)) start = setup.start;
@@ -129,7 +140,7 @@ QString put_into_part(const CaseSetup& setup, document::Lesson& lesson, std::siz
         "CaseSetup", "The case is of another study than the part, so its start was not taken."));
   } else {
     const bool own_study = part.study && !(*part.study == lesson.study);
-    take_start(setup, !own_study && lesson.start ? &*lesson.start : nullptr, attempt.start);
+    take_start(setup, !own_study && lesson.start ? &*lesson.start : nullptr, attempt.start, said);
   }
   add_remarks(setup, said);
   return said.join(u' ');
@@ -150,7 +161,8 @@ QString put_into_lesson(const CaseSetup& setup, document::Lesson& lesson,
         "CaseSetup",
         "The case is of another study than the lesson: choose its file first, so that the start fits."));
   }
-  if (!setup.start.empty() && setup.is_on(lesson.study, folder)) take_start(setup, nullptr, lesson.start);
+  if (!setup.start.empty() && setup.is_on(lesson.study, folder))
+    take_start(setup, nullptr, lesson.start, said);
   add_remarks(setup, said);
   return said.join(u' ');
 }

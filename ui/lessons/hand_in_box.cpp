@@ -55,17 +55,16 @@ HandInBox::HandInBox(engine::LessonCourse& course, QWidget* parent) : QWidget(pa
   connect(table_, &QPushButton::clicked, this, [this] { ask(tr("Table (*.csv)"), ".csv"); });
   connect(name_, &QLineEdit::textChanged, this, &HandInBox::follow);
   connect(&course_, &engine::LessonCourse::changed, this, &HandInBox::follow);
-  connect(&jobs_, &engine::ResultJobs::written, this, [this] {
-    outcome_->setText(tr("Wrote %1").arg(file_));
-    outcome_->show();
-    follow();
-  });
-  connect(&jobs_, &engine::ResultJobs::failed, this, [this](const QString& message) {
-    outcome_->setText(message);
-    outcome_->show();
-    follow();
-  });
+  connect(&jobs_, &engine::ResultJobs::written, this, [this] { say(tr("Wrote %1").arg(file_)); });
+  connect(&jobs_, &engine::ResultJobs::failed, this, &HandInBox::say);
   follow();
+}
+
+void HandInBox::say(const QString& sentence) {
+  outcome_->setText(sentence);
+  outcome_->show();
+  follow();
+  emit said();
 }
 
 void HandInBox::follow() {

@@ -21,7 +21,11 @@ class HandInBox : public QWidget {
   // CSV or PDF, by its suffix.
   void write(const QString& file);
 
+ signals:
+  void said();  // how the writing of a file ended
+
  private:
+  void say(const QString& sentence);
   void ask(const QString& filter, const QString& suffix);
   void follow();
   [[nodiscard]] QString score_text() const;

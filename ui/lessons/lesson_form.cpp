@@ -79,7 +79,7 @@ void LessonForm::add_setting(Form& form) {
   drop_start_ = make_remove_button(tr("Remove the lesson's own start"));
   line->addWidget(start_, 1);
   line->addWidget(drop_start_);
-  form.row(tr("Start"), start, tr("Seeds, values or a mask, taken from a case."));
+  form.row(tr("Start"), start, tr("Seeds, a threshold or a flood, taken from a case."));
   parameters_ = new ParameterRows(kMainParameters);
   form.row(tr("Parameters"), parameters_, tr("From which those of the parts differ."));
   parameters_->setAccessibleName({});

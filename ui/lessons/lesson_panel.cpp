@@ -1,22 +1,30 @@
 #include "ui/lessons/lesson_panel.h"
 
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "ui/lessons/hand_in_box.h"
 #include "ui/lessons/lesson_part_view.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/relative_font.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr double kTitleSize = 1.3;  // of the font
+
+// What was just shown has no place yet.
+void give_places() {
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);
+}
 
 }  // namespace
 
@@ -51,10 +59,7 @@ QWidget* LessonPanel::make_head() {
   auto* title = new QLabel(QString::fromStdString(course_.lesson().title));
   title->setTextFormat(Qt::PlainText);
   title->setWordWrap(true);
-  QFont font = title->font();
-  font.setPointSizeF(font.pointSizeF() * kTitleSize);
-  font.setBold(true);
-  title->setFont(font);
+  set_relative_font(*title, kTitleSize, QFont::Bold);
   parts_ = new QComboBox;
   parts_->setAccessibleName(tr("Parts of the lesson"));
   parts_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -94,15 +99,31 @@ void LessonPanel::show_part() {
   view_ = new LessonPartView(course_);
   column->addWidget(view_);
   const bool last = course_.index() + 1 == course_.lesson().parts.size();
-  if (last) column->addWidget(new HandInBox(course_));
+  if (last) {
+    auto* hand_in = new HandInBox(course_);
+    column->addWidget(hand_in);
+    connect(hand_in, &HandInBox::said, this, [this] {
+      give_places();
+      scroll_->verticalScrollBar()->setValue(scroll_->verticalScrollBar()->maximum());
+    });
+  }
   column->addStretch(1);
   scroll_->setWidget(content);  // deletes the one before
   scroll_->verticalScrollBar()->setValue(0);
   message_->hide();
+  was_done_ = course_.done(course_.index());
+}
+
+// What has just appeared would be below the panel's end.
+void LessonPanel::show_outcome() {
+  give_places();
+  scroll_->verticalScrollBar()->setValue(view_->outcome()->mapTo(scroll_->widget(), QPoint()).y());
 }
 
 void LessonPanel::follow() {
   if (view_->index() != course_.index()) show_part();
+  if (!std::exchange(was_done_, course_.done(course_.index())) && was_done_)
+    QMetaObject::invokeMethod(this, &LessonPanel::show_outcome, Qt::QueuedConnection);
   const std::size_t count = course_.lesson().parts.size();
   for (std::size_t i = 0; i < count; ++i) {
     const QString title = QString::fromStdString(course_.lesson().parts[i].title);

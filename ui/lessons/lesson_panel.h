@@ -28,6 +28,7 @@ class LessonPanel : public QWidget {
   QWidget* make_head();
   QWidget* make_foot();
   void show_part();
+  void show_outcome();
   void follow();
 
   engine::LessonCourse& course_;
@@ -37,6 +38,7 @@ class LessonPanel : public QWidget {
   QPushButton* back_;
   QPushButton* next_;
   LessonPartView* view_ = nullptr;
+  bool was_done_ = false;  // the part that is shown
 };
 
 }  // namespace tidemark::ui

@@ -79,14 +79,15 @@ void LessonPartView::add_question() {
   }
   choices_ = new QButtonGroup(this);
   auto* grid = new QGridLayout;
-  grid->setHorizontalSpacing(kSpaceTight);
+  grid->setHorizontalSpacing(0);
   grid->setVerticalSpacing(kSpaceTight);
   grid->setColumnStretch(1, 1);
   for (std::size_t i = 0; i < question.choices.size(); ++i) {
     const QString text = QString::fromStdString(question.choices[i]);
     const int row = static_cast<int>(i);
-    // A radio button's own text does not wrap.
-    auto* button = new QRadioButton;
+    // A radio button's own text does not wrap. A blank one is as high as a line: the mark is beside the
+    // first.
+    auto* button = new QRadioButton(QStringLiteral(" "));
     button->setAccessibleName(text);
     auto* label = plain_label(text);
     label->setTextInteractionFlags(Qt::NoTextInteraction);
@@ -137,7 +138,7 @@ void LessonPartView::add_try() {
 
 void LessonPartView::add_figures() {
   column_->addSpacing(kSpace);
-  add_heading(tr("Measure"));
+  measure_heading_ = add_heading(tr("Measure"));
   measure_ = new QPushButton(icon(u"statistics"), tr("Measure"));
   measure_->setToolTip(tr("Takes the figures of the surface as it is now."));
   connect(measure_, &QPushButton::clicked, &course_, &engine::LessonCourse::measure);

@@ -24,6 +24,8 @@ class LessonPartView : public QWidget {
   explicit LessonPartView(engine::LessonCourse& course, QWidget* parent = nullptr);
 
   [[nodiscard]] std::size_t index() const { return index_; }
+  // Where the outcome of the part begins: figures and explanation.
+  [[nodiscard]] QWidget* outcome() const { return measure_heading_ ? measure_heading_ : explanation_; }
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -49,6 +51,7 @@ class LessonPartView : public QWidget {
   QPushButton* stop_ = nullptr;
   QLabel* try_hint_ = nullptr;
   QProgressBar* progress_ = nullptr;
+  QWidget* measure_heading_ = nullptr;
   QPushButton* measure_ = nullptr;
   QWidget* table_ = nullptr;
   struct Row {

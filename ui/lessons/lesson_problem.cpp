@@ -71,14 +71,6 @@ QString part_text(const document::Lesson& lesson, std::size_t part) {
   return title.trimmed().isEmpty() ? number : QStringLiteral("%1 “%2”").arg(number, title);
 }
 
-// A ball in the middle of nowhere in place of what would take long to write and read.
-void make_light(std::optional<document::Start>& start) {
-  if (!start) return;
-  const bool is_heavy = std::holds_alternative<document::MaskStart>(start->from) ||
-                        std::holds_alternative<document::FieldStart>(start->from);
-  if (is_heavy) start->from = document::ThresholdStart{0.0, 1.0};
-}
-
 }  // namespace
 
 LessonProblem in_words(const std::string& message, const document::Lesson& lesson) {
@@ -121,12 +113,7 @@ std::optional<LessonProblem> problem_of(const document::Lesson& lesson, const do
             .arg(turned - measures.begin() + 1),
         i};
   }
-  document::Lesson light = lesson;
-  make_light(light.start);
-  for (document::LessonPart& part : light.parts) {
-    if (part.attempt) make_light(part.attempt->start);
-  }
-  const auto written = light.to_text();
+  const auto written = lesson.to_text();
   if (written) return std::nullopt;
   return in_words(written.error().message, titled);
 }

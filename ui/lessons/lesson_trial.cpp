@@ -31,6 +31,7 @@ LessonTrial::LessonTrial(QWidget* parent) : QDialog(parent), said_(make_note({})
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + kSpace);
   table_->horizontalHeader()->setHighlightSections(false);
+  table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(part_column, QHeaderView::Stretch);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
@@ -84,6 +85,7 @@ void LessonTrial::add_row(const QString& part, const document::LessonMeasure& me
   put(expected_column, tr("%1 to %2").arg(general_text(measure.low, 9), general_text(measure.high, 9)));
   const bool holds = value && measure.holds(*value);
   QTableWidgetItem* verdict = put(verdict_column, holds ? tr("yes") : tr("no"));
+  verdict->setTextAlignment(Qt::AlignCenter);
   if (!holds) verdict->setIcon(icon(u"warning"));
 }
 

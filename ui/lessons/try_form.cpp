@@ -74,7 +74,7 @@ void TryForm::add_start(Form& form) {
   drop_start_ = make_remove_button(tr("Remove the part's own start"));
   line->addWidget(start_, 1);
   line->addWidget(drop_start_);
-  form.row(tr("Start"), start, tr("Seeds, values or a mask, taken from a case."));
+  form.row(tr("Start"), start, tr("Seeds, a threshold or a flood, taken from a case."));
   connect(drop_start_, &QToolButton::clicked, this, [this] {
     change([](document::LessonTry& attempt) { attempt.start.reset(); });
     show_start();
@@ -115,7 +115,7 @@ void TryForm::add_views(Form& form) {
   auto* row = row_in(whole);
   const QString titles[] = {tr("Contours"), tr("Pages"), tr("Speed"), tr("Truth")};
   const QString tips[] = {
-      tr("Where the surface was before."), tr("The pages of memory that the surface uses."),
+      tr("Lines where φ is -2, -1, 1 and 2, beside the surface."), tr("The pages of memory that the surface uses."),
       tr("The speed at each place, in colours."), tr("The phantom's true outline beside the surface.")};
   for (std::size_t i = 0; i < document::lesson_view_names().size(); ++i) {
     auto* check = new QCheckBox(titles[i]);

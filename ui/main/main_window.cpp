@@ -118,6 +118,7 @@ void MainWindow::make_centre() {
   connect(start, &StartPage::open_file, this, &MainWindow::ask_for_file);
   connect(start, &StartPage::phantom_chosen, this, &MainWindow::open_phantom);
   connect(start, &StartPage::recent_chosen, this, &MainWindow::open_recent);
+  connect(start, &StartPage::lessons_wanted, this, [this](QPoint at) { teaching_->show_list(at); });
   connect(start, &StartPage::dropped, this, [this](const QStringList& paths) {
     for (const QString& path : paths) open(path);
   });

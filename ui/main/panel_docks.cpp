@@ -20,6 +20,7 @@
 #include "ui/panels/value_unit.h"
 #include "ui/passes/passes_panel.h"
 #include "ui/transfer/transfer_function_editor.h"
+#include "ui/widgets/relative_font.h"
 
 namespace tidemark::ui {
 namespace {
@@ -84,6 +85,7 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
 QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* panel) {
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QString::fromLatin1(name));
+  let_title_follow_font(*dock);
   auto* head = new CaseHead;
   heads_ << head;
   auto* headed = new QWidget;

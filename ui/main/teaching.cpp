@@ -12,12 +12,11 @@
 #include "engine/lesson_course.h"
 #include "ui/lessons/lesson_editor.h"
 #include "ui/lessons/lesson_panel.h"
-#include "ui/look/theme.h"
 #include "ui/main/case_files.h"
 #include "ui/main/case_head.h"
 #include "ui/main/case_window.h"
 #include "ui/main/main_window.h"
-#include "ui/settings.h"
+#include "ui/widgets/relative_font.h"
 
 namespace tidemark::ui {
 namespace {
@@ -37,6 +36,7 @@ Teaching::Teaching(MainWindow& window) : QObject(&window), window_(window), norm
 Teaching::~Teaching() = default;
 
 void Teaching::fill(QMenu& menu) {
+  menu_ = &menu;
   int number = 0;
   for (const document::OwnLesson& own : document::own_lessons()) {
     const auto lesson = document::Lesson::parse(own.text, std::string(own.name));
@@ -64,6 +64,10 @@ void Teaching::fill(QMenu& menu) {
   auto* large = menu.addAction(tr("&Projector: large type"));
   large->setCheckable(true);
   connect(large, &QAction::toggled, this, &Teaching::set_large);
+}
+
+void Teaching::show_list(QPoint at) {
+  menu_->popup(at);
 }
 
 void Teaching::ask_and_open() {
@@ -106,6 +110,7 @@ void Teaching::begin(document::Lesson lesson, const std::filesystem::path& folde
   if (!dock_) {
     dock_ = new QDockWidget(tr("Lesson"), &window_);
     dock_->setObjectName("lesson");
+    let_title_follow_font(*dock_);
     dock_->setMinimumWidth(kWidth);
     window_.addDockWidget(Qt::LeftDockWidgetArea, dock_);
   }
@@ -186,7 +191,7 @@ void Teaching::set_large(bool large) {
   QFont font = normal_;
   if (large) font.setPointSizeF(font.pointSizeF() * kLargeType);
   QApplication::setFont(font);
-  apply_theme(*qApp, settings::theme().get());  // widgets under a style sheet look at the font only then
+  qApp->setStyleSheet(qApp->styleSheet());  // widgets under a style sheet look at the font only then
 }
 
 }  // namespace tidemark::ui

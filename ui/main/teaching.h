@@ -3,6 +3,7 @@
 
 #include <QFont>
 #include <QObject>
+#include <QPoint>
 #include <QPointer>
 #include <filesystem>
 #include <memory>
@@ -34,6 +35,7 @@ class Teaching : public QObject {
   ~Teaching() override;
 
   void fill(QMenu& menu);
+  void show_list(QPoint at);  // that menu, somewhere else on the screen
   // `folder` holds its file: where its studies are looked for.
   void begin(document::Lesson lesson, const std::filesystem::path& folder);
   void open(const QString& file);  // a lesson; says what is wrong with it
@@ -56,6 +58,7 @@ class Teaching : public QObject {
   QDockWidget* dock_ = nullptr;
   CaseHead* head_ = nullptr;
   QPointer<CaseWindow> named_;  // at the head
+  QMenu* menu_ = nullptr;
   QAction* show_ = nullptr;
   QAction* edit_ = nullptr;
   std::filesystem::path file_;      // of the lesson; empty: one of the program's own

@@ -13,6 +13,7 @@
 #include "ui/opening/card_button.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/phantom_menu.h"
+#include "ui/widgets/relative_font.h"
 
 namespace tidemark::ui {
 namespace {
@@ -24,10 +25,7 @@ constexpr std::string_view kFirstToTry = "tumour";
 
 QLabel* label(const QString& text, double size, bool bold, QWidget* parent) {
   auto* made = new QLabel(text, parent);
-  QFont font = made->font();
-  font.setPointSizeF(font.pointSizeF() * size);
-  font.setWeight(bold ? QFont::DemiBold : QFont::Normal);
-  made->setFont(font);
+  set_relative_font(*made, size, bold ? QFont::DemiBold : QFont::Normal);
   made->setWordWrap(true);
   return made;
 }
@@ -110,6 +108,8 @@ QWidget* StartPage::build_opening() {
   column->addWidget(file);
   column->addWidget(label(tr("Or drop a folder or a file anywhere on this page."), 1.0, false, part));
   column->addSpacing(14);
+  column->addWidget(build_lessons());
+  column->addSpacing(14);
 
   auto* heading = new QHBoxLayout;
   heading->addWidget(label(tr("Recent studies"), 1.3, true, part), 1);
@@ -129,6 +129,20 @@ QWidget* StartPage::build_opening() {
   recent_list_->setSpacing(8);
   column->addLayout(recent_list_);
   column->addStretch(1);
+  return part;
+}
+
+QWidget* StartPage::build_lessons() {
+  auto* part = new QWidget(content_);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(8);
+  column->addWidget(label(tr("Learn how it works"), 1.3, true, part));
+  auto* card = new CardButton(tr("Do a lesson…"), tr("Predict, try, measure, and read why."), part);
+  card->setObjectName("lessons");
+  connect(card, &CardButton::clicked, this,
+          [this, card] { emit lessons_wanted(card->mapToGlobal(card->rect().bottomLeft())); });
+  column->addWidget(card);
   return part;
 }
 

@@ -22,6 +22,7 @@ class StartPage : public QWidget {
   void dropped(const QStringList& paths);
   void recent_chosen(const tidemark::ui::RecentStudy& study);
   void phantom_chosen(const QString& kind);
+  void lessons_wanted(QPoint at);  // their list, on the screen
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -34,6 +35,7 @@ class StartPage : public QWidget {
  private:
   void build();
   QWidget* build_opening();
+  QWidget* build_lessons();
   QWidget* build_phantoms();
   void fill_recent();
 

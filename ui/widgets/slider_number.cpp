@@ -32,7 +32,7 @@ SliderNumber::SliderNumber(QWidget* parent)
   slider_->setPageStep(kPositions / 10);
   slider_->setMinimumWidth(48);
   number_->setAlignment(Qt::AlignRight);
-  number_->setFixedWidth(number_->fontMetrics().horizontalAdvance(QStringLiteral("-0000.0 HU")) + kArrows);
+  fit_number();
   setFocusProxy(number_);
   guard_wheel(slider_);
   guard_wheel(number_);
@@ -40,6 +40,15 @@ SliderNumber::SliderNumber(QWidget* parent)
   connect(slider_, &QSlider::sliderReleased, this, [this] { gesture_ = 0; });
   connect(slider_, &QSlider::valueChanged, this, &SliderNumber::slider_moved);
   connect(number_, &NumberBox::valueChanged, this, &SliderNumber::number_changed);
+}
+
+void SliderNumber::fit_number() {
+  number_->setFixedWidth(fontMetrics().horizontalAdvance(QStringLiteral("-0000.0 HU")) + kArrows);
+}
+
+void SliderNumber::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) fit_number();
 }
 
 void SliderNumber::set_range(double low, double high, double least, double most, Scale scale) {

@@ -39,7 +39,11 @@ class SliderNumber : public QWidget {
   // follow each other quickly.
   void edited(double value, std::uint64_t gesture);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
+  void fit_number();
   void slider_moved();
   void number_changed(double value);
   void announce();

@@ -16,6 +16,7 @@
 #include "core/atomic_file.h"
 #include "core/text_file.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/lessons/teacher.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/look/theme.h"
 
@@ -27,59 +28,6 @@ using document::Lesson;
 namespace {
 
 constexpr int kPatience = 60'000;
-
-// A shown widget by its accessible name, scrolled to where it can be clicked.
-template <class Widget>
-Widget* at_hand(QWidget& editor, const QString& name) {
-  QCoreApplication::processEvents();  // rows that are new get their place
-  for (Widget* widget : editor.findChildren<Widget*>()) {
-    const auto* button = qobject_cast<const QAbstractButton*>(widget);
-    if (widget->accessibleName() != name && !(button && button->text() == name)) continue;
-    if (!widget->isVisible()) continue;
-    const bool can_be_clicked = QTest::qWaitFor([widget] {
-      for (QWidget* outer = widget->parentWidget(); outer != nullptr; outer = outer->parentWidget()) {
-        if (auto* scroll = qobject_cast<QScrollArea*>(outer)) scroll->ensureWidgetVisible(widget);
-      }
-      return !widget->visibleRegion().isEmpty();
-    });
-    if (!can_be_clicked) qFatal("%s is out of sight", qPrintable(name));
-    return widget;
-  }
-  qFatal("there is no %s", qPrintable(name));
-}
-
-void click(QWidget& editor, const QString& name) {
-  auto* button = at_hand<QAbstractButton>(editor, name);
-  // On the mark of a check box or a radio button, not on the empty place behind its text.
-  const bool is_mark = qobject_cast<QCheckBox*>(button) || qobject_cast<QRadioButton*>(button);
-  const QPoint place = is_mark ? QPoint(8, button->height() / 2) : button->rect().center();
-  QTest::mouseClick(button, Qt::LeftButton, {}, place);
-}
-
-template <class Field>
-void type(QWidget& editor, const QString& name, const QString& text) {
-  auto* field = at_hand<Field>(editor, name);
-  field->setFocus();
-  field->selectAll();
-  QTest::keyClicks(field, text);
-  if constexpr (std::is_same_v<Field, ui::NumberBox>)
-    QTest::keyClick(field, Qt::Key_Tab);  // it is taken then
-}
-
-void choose(QWidget& editor, const QString& name, const QString& item) {
-  auto* box = at_hand<QComboBox>(editor, name);
-  const int row = box->findText(item);
-  if (row < 0) qFatal("there is no %s", qPrintable(item));
-  box->setFocus();
-  while (box->currentIndex() != row)
-    QTest::keyClick(box, box->currentIndex() < row ? Qt::Key_Down : Qt::Key_Up);
-}
-
-// The item of the list: 0 is the lesson itself.
-void go_to(QWidget& editor, int row) {
-  auto* list = editor.findChild<QListWidget*>();
-  QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, list->visualItemRect(list->item(row)).center());
-}
 
 bool says(QWidget& editor, const QString& text) {
   for (const QLabel* label : editor.findChildren<QLabel*>()) {
@@ -98,17 +46,6 @@ void answer(QMessageBox::StandardButton button) {
     QTest::mouseClick(box->button(button), Qt::LeftButton);
   });
   timer->start(20);
-}
-
-// Enters a name in the file dialog that is open.
-bool name_file(QWidget& editor, const std::filesystem::path& file) {
-  QFileDialog* dialog = nullptr;
-  if (!QTest::qWaitFor([&] { return (dialog = editor.findChild<QFileDialog*>()) && dialog->isVisible(); }))
-    return false;
-  auto* name = dialog->findChild<QLineEdit*>();
-  name->setText(QString::fromStdString(file.string()));
-  QTest::keyClick(name, Qt::Key_Return);
-  return true;
 }
 
 void screenshot(QWidget& window, const QString& name) {
@@ -422,6 +359,15 @@ class LessonEditorTest : public QObject {
     click(*editor, "&Take from the case");
     QTRY_VERIFY_WITH_TIMEOUT(editor->lesson().start.has_value(), kPatience);
     QCOMPARE(editor->lesson().parameters.alpha, 0.3125);
+
+    // A mask is of one grid, and no lesson file has one.
+    document::Start painted;
+    painted.from = document::MaskStart{std::make_shared<const Mask>(proxy->state().phi->mask()), "mine"};
+    proxy->begin(painted);
+    QVERIFY(idle());
+    click(*editor, "&Take from the case");
+    QTRY_VERIFY_WITH_TIMEOUT(says(*editor, "The case begins with a mask"), kPatience);
+    QVERIFY(editor->lesson().start->seeds == start.seeds);
     proxy.reset();
     click(*editor, "&Take from the case");
     QTRY_VERIFY(says(*editor, "No case is open."));

@@ -1,8 +1,6 @@
 // A case beside a copy of it: the scheme of the paper and the split one, in lock-step.
 #include <QLabel>
 #include <QMdiSubWindow>
-#include <QMenu>
-#include <QMenuBar>
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
@@ -11,17 +9,6 @@
 
 namespace tidemark::test {
 namespace {
-
-// By clicks in the menu "Window".
-void choose(Desktop& desktop, QAction* wanted) {
-  QMenuBar* bar = desktop.window().menuBar();
-  for (QAction* title : bar->actions()) {
-    if (title->text().remove('&') != "Window") continue;
-    QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(title).center());
-    QVERIFY(QTest::qWaitFor([&] { return title->menu()->isVisible(); }));
-    QTest::mouseClick(title->menu(), Qt::LeftButton, {}, title->menu()->actionGeometry(wanted).center());
-  }
-}
 
 std::vector<float> phi_of(ui::CaseWindow& window) {
   return window.proxy().state().phi->dense();
@@ -59,7 +46,7 @@ void ComparisonStoryTest::schemes_are_compared_by_one_click() {
   QVERIFY(Desktop::wait_for([&] { return desktop.state().step == 6; }));
   desktop.wait_until_idle();
   const QString executor = desktop.state().executor;
-  choose(desktop, desktop.window().actions().compare_schemes);
+  desktop.choose("Window", desktop.window().actions().compare_schemes);
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
   ui::CaseWindow* copy = desktop.window().cases()[1];
   const auto both_at = [&](std::int64_t step) {
@@ -110,7 +97,7 @@ void ComparisonStoryTest::a_duplicate_goes_on_by_itself() {
   desktop.proxy().step(4);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().step == 4; }));
   desktop.wait_until_idle();
-  choose(desktop, desktop.window().actions().duplicate_case);
+  desktop.choose("Window", desktop.window().actions().duplicate_case);
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 2; }));
   desktop.wait_until_idle();
   ui::CaseWindow* copy = desktop.window().cases()[1];

@@ -1,6 +1,8 @@
 #include "tests/ui/main/desktop.h"
 
 #include <QAbstractEventDispatcher>
+#include <QMenu>
+#include <QMenuBar>
 #include <QMetaEnum>
 #include <QMouseEvent>
 #include <QPainter>
@@ -95,7 +97,8 @@ Desktop::Desktop(solver::ExecutorKind executor, QSize size, bool use_opengl) {
   QSettings::setDefaultFormat(QSettings::IniFormat);
   QSettings::setPath(QSettings::IniFormat, QSettings::UserScope,
                      QString::fromStdString(home_.path().string()));
-  ui::apply_theme(*qApp, ui::Theme::light);
+  const bool dark = qgetenv("TIDEMARK_STORY_THEME") == "dark";
+  ui::apply_theme(*qApp, dark ? ui::Theme::dark : ui::Theme::light);
   engine_ = std::make_unique<engine::Engine>(use_opengl);
   window_ = std::make_unique<ui::MainWindow>(*engine_);
   window_->set_executor(executor);
@@ -194,6 +197,28 @@ void Desktop::mouse(ui::PictureView& view, QEvent::Type type, glm::dvec3 patient
                     type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton,
                     type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton, {});
   QApplication::sendEvent(&view, &event);
+}
+
+QAction* Desktop::menu_entry(const QString& menu, const QString& text) {
+  for (QAction* title : window_->menuBar()->actions()) {
+    if (title->text().remove('&') != menu) continue;
+    for (QAction* action : title->menu()->actions()) {
+      if (action->text().remove('&').startsWith(text)) return action;
+    }
+  }
+  return nullptr;
+}
+
+void Desktop::choose(const QString& menu, QAction* wanted) {
+  QMenuBar* bar = window_->menuBar();
+  for (QAction* title : bar->actions()) {
+    if (title->text().remove('&') != menu) continue;
+    QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(title).center());
+    QVERIFY(wait_for([&] { return title->menu()->isVisible(); }));
+    QTest::mouseClick(title->menu(), Qt::LeftButton, {}, title->menu()->actionGeometry(wanted).center());
+    return;
+  }
+  QFAIL("there is no such menu");
 }
 
 void Desktop::answer(QMessageBox::StandardButton button) {

@@ -1,6 +1,7 @@
 // The desktop as tests drive it: real windows on a screen that nobody sees.
 #pragma once
 
+#include <QAction>
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QImage>
@@ -55,7 +56,8 @@ struct PhiTraffic {
 };
 
 // Settings, recovery and everything else of this program goes into a folder of its own that is gone after it.
-// At the end it tells which event kept the user interface longest since the window was there.
+// TIDEMARK_STORY_THEME=dark shows all in the dark theme. At the end it tells which event kept the user
+// interface longest since the window was there.
 class Desktop {
  public:
   explicit Desktop(solver::ExecutorKind executor, QSize size = {1280, 800}, bool use_opengl = true);
@@ -90,6 +92,10 @@ class Desktop {
   static void mouse(ui::PictureView& view, QEvent::Type type, glm::dvec3 patient_mm);
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = {});
 
+  // An entry of the menu bar's menu of that title, by the beginning of its text; null: there is none.
+  QAction* menu_entry(const QString& menu, const QString& text);
+  // By clicks in the menu bar.
+  void choose(const QString& menu, QAction* wanted);
   // Presses that button of the next question.
   static void answer(QMessageBox::StandardButton button);
 

@@ -2,8 +2,6 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
-#include <QMenu>
-#include <QMenuBar>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -21,19 +19,6 @@ namespace tidemark::test {
 namespace {
 
 constexpr double kRadius = 10.0;
-
-// By clicks in the menu bar.
-void choose(Desktop& desktop, const QString& menu, QAction* wanted) {
-  QMenuBar* bar = desktop.window().menuBar();
-  for (QAction* title : bar->actions()) {
-    if (title->text().remove('&') != menu) continue;
-    QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(title).center());
-    QVERIFY(QTest::qWaitFor([&] { return title->menu()->isVisible(); }));
-    QTest::mouseClick(title->menu(), Qt::LeftButton, {}, title->menu()->actionGeometry(wanted).center());
-    return;
-  }
-  QFAIL("there is no such menu");
-}
 
 const engine::RecordedStep* recorded(Desktop& desktop) {
   return desktop.proxy().passes().recorded().get();
@@ -57,7 +42,7 @@ const ui::TexelPicture* picture(ui::PassesPanel& panel, const QString& name) {
 }
 
 ui::PassesPanel* open_passes(Desktop& desktop) {
-  choose(desktop, "Evolution", desktop.window().actions().passes);
+  desktop.choose("Evolution", desktop.window().actions().passes);
   auto* panel = desktop.window().findChild<ui::PassesPanel*>();
   return Desktop::wait_for([&] { return panel->isVisible(); }) ? panel : nullptr;
 }
@@ -190,7 +175,7 @@ void PassesStoryTest::the_panel_offers_the_stream_executor() {
   QVERIFY(panel);
   QVERIFY2(texts(*panel).contains("Once there is a surface"), qPrintable(texts(*panel)));
   desktop.begin(kRadius);
-  choose(desktop, "Evolution", desktop.window().actions().passes);  // the panel that steers came to the front
+  desktop.choose("Evolution", desktop.window().actions().passes);  // the panel that steers came to the front
   QVERIFY(Desktop::wait_for([&] { return panel->isVisible(); }));
   desktop.proxy().step(5);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().step == 5; }));
