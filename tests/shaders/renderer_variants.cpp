@@ -12,14 +12,14 @@ namespace {
 using renderer::SliceView;
 using renderer::VolumeView;
 
-// Calls visit(choices), one of `counts[i]` at each place i, for those that differ from all-first or from
-// all-last in at most two places.
+// Calls visit(choices), one of `counts[i]` at each place i, for those that differ from all-first in at most
+// two places, or from all-last in at most one.
 void for_pairs(const std::vector<int>& counts, const std::function<void(const std::vector<int>&)>& visit) {
   for (const bool last : {false, true}) {
     std::vector<int> choices;
     for (const int count : counts) choices.push_back(last ? count - 1 : 0);
     for (std::size_t a = 0; a < counts.size(); ++a) {
-      for (std::size_t b = a; b < counts.size(); ++b) {
+      for (std::size_t b = a; b < (last ? a + 1 : counts.size()); ++b) {
         std::vector<int> changed = choices;
         for (changed[a] = 0; changed[a] < counts[a]; ++changed[a]) {
           for (changed[b] = a == b ? changed[a] : 0; changed[b] < counts[b]; ++changed[b]) {
