@@ -11,6 +11,7 @@ namespace tidemark::bench {
 
 Result<DenseRun> run_dense_gl(gpu::Device& device, const Volume& source, const solver::Parameters& parameters,
                               const solver::Field& phi, std::int64_t steps) {
+  TIDEMARK_TRY(device.make_current());
   const solver::Model model(source.geometry, parameters,
                             solver::TentSpeed(std::make_shared<const Volume>(source), parameters));
   auto program = gpu::Program::compute(device, "bench/dense.comp", solver::step_defines(model));

@@ -1,5 +1,7 @@
 #include "tests/shaders/reference_compiler.h"
 
+#include <fmt/ranges.h>
+
 #include <QProcess>
 #include <QRegularExpression>
 #include <atomic>
@@ -37,56 +39,59 @@ std::string name_of(const gpu::ProgramSource& program, const std::string& versio
   return name;
 }
 
-// Notes the lines of a preprocessed text that are not empty, by its #line directives.
-void note_lines(const std::string& text, const gpu::ShaderSource& source, Compiled& result) {
+// The programs that a thread has compiled: their files, and what each was put together from.
+struct Stages {
+  QStringList names;
+  std::vector<gpu::ShaderSource> sources;
+};
+
+// Notes the lines that the preprocessor leaves of each file, by its #line directives.
+Status note_lines(const Stages& stages, Compiled& result) {
   static const QRegularExpression kLine("^#line (\\d+) (\\d+)");
-  std::istringstream lines(text);
+  const auto expanded = run(QStringList{"-E"} + stages.names);
+  if (!expanded) return pass_on(expanded);
+  std::istringstream lines(expanded->output);
   std::string line;
+  auto source = stages.sources.begin() - 1;
+  const std::string* file = nullptr;
   int number = 0;
-  std::size_t file = source.files.size();
   while (std::getline(lines, line)) {
     const auto match = kLine.match(QString::fromStdString(line));
-    if (match.hasMatch()) {
+    if (line.starts_with("#version")) {
+      ++source;
+      file = nullptr;
+    } else if (match.hasMatch()) {
       number = match.captured(1).toInt();
-      file = match.captured(2).toUInt();
-      continue;
+      file = &source->files[match.captured(2).toUInt()];
+    } else {
+      const bool is_code = line.find_first_not_of(" \t") != std::string::npos;
+      if (file != nullptr && is_code) result.lines[*file].insert(number);
+      ++number;
     }
-    if (file < source.files.size() && line.find_first_not_of(" \t") != std::string::npos) {
-      result.lines[source.files[file]].insert(number);
-    }
-    ++number;
   }
+  return {};
 }
 
-Status compile(const gpu::ProgramSource& program, const std::string& version, Compiled& result) {
-  const TemporaryFolder folder;
-  std::vector<gpu::ShaderSource> sources;
+Status compile(const gpu::ProgramSource& program, const std::string& version,
+               const std::filesystem::path& stem, Stages& stages, Compiled& result) {
   QStringList names;
+  std::string files;
   for (const std::string& stage : program.stages) {
     auto source = gpu::assemble_shader(stage, version, program.defines);
     if (!source) return pass_on(source);
-    const auto file = folder / ("stage" + stage.substr(stage.rfind('.')));
-    std::ofstream(file) << source->text;
-    names.push_back(QString::fromStdString(file.string()));
-    sources.push_back(std::move(*source));
+    const std::string name = stem.string() + stage.substr(stage.rfind('.'));
+    std::ofstream(name) << source->text;
+    names.push_back(QString::fromStdString(name));
+    files += fmt::format("the files that places of {} count, from 0 on: {}\n", stage,
+                         fmt::join(source->files, " "));
+    stages.sources.push_back(std::move(*source));
   }
+  stages.names += names;
   const auto linked = run(QStringList{"-l"} + names);
   if (!linked) return pass_on(linked);
-  if (!linked->well || linked->output.find("ERROR") != std::string::npos ||
-      linked->output.find("WARNING") != std::string::npos) {
-    std::string words = linked->output;
-    if (sources.size() == 1) words = gpu::name_files(words, sources.front());
-    for (std::size_t i = 0; i < sources.size() && sources.size() > 1; ++i) {
-      words += fmt::format("files of {}:", program.stages[i]);
-      for (const std::string& file : sources[i].files) words += " " + file;
-      words += '\n';
-    }
-    result.complaints.push_back(name_of(program, version) + "\n" + words);
-  }
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    const auto expanded = run({"-E", names[static_cast<int>(i)]});
-    if (!expanded) return pass_on(expanded);
-    note_lines(expanded->output, sources[i], result);
+  const auto has = [&](const char* word) { return linked->output.find(word) != std::string::npos; };
+  if (!linked->well || has("ERROR") || has("WARNING")) {
+    result.complaints.push_back(name_of(program, version) + "\n" + linked->output + files);
   }
   return {};
 }
@@ -95,16 +100,19 @@ Status compile(const gpu::ProgramSource& program, const std::string& version, Co
 
 Result<Compiled> compile_by_reference(const std::vector<gpu::ProgramSource>& programs,
                                       const std::string& version) {
+  const TemporaryFolder folder;
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   Compiled all;
   Status status;
   const auto work = [&] {
     Compiled own;
+    Stages stages;
     Status failed;
     for (std::size_t i = next++; i < programs.size() && failed; i = next++) {
-      failed = compile(programs[i], version, own);
+      failed = compile(programs[i], version, folder / std::to_string(i), stages, own);
     }
+    if (failed && !stages.names.isEmpty()) failed = note_lines(stages, own);
     const std::lock_guard lock(mutex);
     if (!failed) status = failed;
     all.complaints.insert(all.complaints.end(), own.complaints.begin(), own.complaints.end());

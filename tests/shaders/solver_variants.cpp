@@ -33,28 +33,28 @@ std::shared_ptr<const Volume> source_with(glm::dvec3 spacing) {
   return volume;
 }
 
-void must(const Status& status) {
-  if (!status) qFatal("%s", status.error().message.c_str());
+template <class T>
+void must(const Result<T>& result) {
+  if (!result) qFatal("%s", result.error().message.c_str());
 }
 
-// All programs of an executor on a source.
-void drive(solver::ExecutorKind kind, const std::shared_ptr<const Volume>& source,
+// All programs of an executor on a source with such a scheme.
+void drive(solver::ExecutorKind kind, const std::shared_ptr<const Volume>& source, solver::Scheme scheme,
            const solver::ExecutorOptions& options) {
-  auto walls = std::make_shared<solver::Constraints>(source->geometry.size);
-  walls->set({{3, 4, 5}}, solver::Constraint::wall);
+  solver::Constraints walls(source->geometry.size);
+  walls.set({{3, 4, 5}}, solver::Constraint::wall);
+  const auto constrained = std::make_shared<const solver::Constraints>(std::move(walls));
   const auto speed = [](glm::dvec3) { return 0.5; };
   const auto flow = [](glm::dvec3) { return glm::vec3(0.1F); };
-  for (const solver::Scheme scheme : {solver::Scheme::split, solver::Scheme::paper}) {
-    solver::Parameters parameters;
-    parameters.scheme = scheme;
-    auto level_set = solver::make_executor(kind, source, parameters, options);
-    if (!level_set) qFatal("%s", level_set.error().message.c_str());
-    for (const bool constrained : {false, true}) {
-      must((*level_set)->set_constraints(constrained ? walls : nullptr));
-      must((*level_set)->set_speed(nullptr));
-      must((*level_set)->set_speed(std::make_shared<FormulaSpeed>(speed)));
-      must((*level_set)->set_speed(std::make_shared<FormulaSpeed>(speed, flow, 0.2)));
-    }
+  solver::Parameters parameters;
+  parameters.scheme = scheme;
+  auto level_set = solver::make_executor(kind, source, parameters, options);
+  if (!level_set) qFatal("%s", level_set.error().message.c_str());
+  for (const auto& constraints : {std::shared_ptr<const solver::Constraints>(), constrained}) {
+    must((*level_set)->set_constraints(constraints));
+    must((*level_set)->set_speed(nullptr));
+    must((*level_set)->set_speed(std::make_shared<FormulaSpeed>(speed)));
+    must((*level_set)->set_speed(std::make_shared<FormulaSpeed>(speed, flow, 0.2)));
   }
 }
 
@@ -65,28 +65,33 @@ std::vector<gpu::ProgramSource> solver_variants() {
   const Driver gl33(gpu::GlVersion::gl33, false, programs);
   const Driver processor(gpu::GlVersion::gl45, false, programs);
   const Driver gpu(gpu::GlVersion::gl45, true, programs);
-  for (const glm::dvec3 spacing : {glm::dvec3(1.0), glm::dvec3(1.0, 1.0, 2.0)}) {
-    for (const auto& source : {source_with<std::int16_t>(spacing), source_with<std::uint16_t>(spacing),
-                               source_with<float>(spacing)}) {
-      solver::ExecutorOptions options;
-      options.device = gl33.device;
-      drive(solver::ExecutorKind::stream, source, options);
-      for (const Index3 shape : {Index3(8), Index3(16, 16, 1)}) {
+  const auto on_all_drivers = [&](const std::shared_ptr<const Volume>& source, solver::Scheme scheme,
+                                  std::initializer_list<Index3> shapes) {
+    solver::ExecutorOptions options;
+    options.device = gl33.device;
+    drive(solver::ExecutorKind::stream, source, scheme, options);
+    for (const Driver* driver : {&processor, &gpu}) {
+      options.device = driver->device;
+      for (const Index3 shape : shapes) {
         options.page_shape = shape;
-        for (const Driver* driver : {&processor, &gpu}) {
-          options.device = driver->device;
-          drive(solver::ExecutorKind::compute, source, options);
-        }
-      }
-      for (const solver::Scheme scheme : {solver::Scheme::split, solver::Scheme::paper}) {
-        solver::Parameters parameters;
-        parameters.scheme = scheme;
-        const auto start = solver::Field::empty(source->geometry, solver::default_band(source->geometry));
-        const auto dense = bench::run_dense_gl(*processor.device, *source, parameters, start, 1);
-        if (!dense) qFatal("%s", dense.error().message.c_str());
+        drive(solver::ExecutorKind::compute, source, scheme, options);
       }
     }
+  };
+  for (const glm::dvec3 spacing : {glm::dvec3(1.0), glm::dvec3(1.0, 1.0, 2.0)}) {
+    const auto source = source_with<std::int16_t>(spacing);
+    for (const solver::Scheme scheme : {solver::Scheme::split, solver::Scheme::paper}) {
+      on_all_drivers(source, scheme, {Index3(8), Index3(16, 16, 1)});
+      solver::Parameters parameters;
+      parameters.scheme = scheme;
+      const auto start = solver::Field::empty(source->geometry, solver::default_band(source->geometry));
+      must(bench::run_dense_gl(*processor.device, *source, parameters, start, 1));
+    }
   }
+  // The kind of sampler matters to no other choice.
+  const auto split = solver::Scheme::split;
+  on_all_drivers(source_with<std::uint16_t>(glm::dvec3(1.0)), split, {Index3(8)});
+  on_all_drivers(source_with<float>(glm::dvec3(1.0)), split, {Index3(8)});
   return programs;
 }
 

@@ -11,7 +11,8 @@ namespace tidemark::test {
 // page and kind of driver.
 std::vector<gpu::ProgramSource> solver_variants();
 
-// What the renderer compiles for views that differ in up to two choices from a plain and from a rich one.
+// What the renderer compiles for views that differ in up to two choices from a plain one, or in one from a
+// rich one.
 std::vector<gpu::ProgramSource> renderer_variants();
 
 }  // namespace tidemark::test

@@ -135,6 +135,28 @@ class StreamTest : public QObject {
     }
   }
 
+  // GALLIUM_DRIVER names one of Mesa's drivers, and another must not pass for it.
+  void a_small_ball_is_the_references_on_the_driver_asked_for() {
+    const QByteArray asked = qgetenv("GALLIUM_DRIVER");
+    const QByteArray found = QByteArray::fromStdString(device()->capabilities().renderer);
+    QVERIFY2(asked.isEmpty() || found.contains(asked), found.constData());
+    const Scene scene({32, 30, 24}, {1.0, 1.0, 1.5});
+    const auto tested = scene.start(solver::ExecutorKind::stream);
+    const auto reference = scene.start(solver::ExecutorKind::reference);
+    for (solver::Executor* level_set : {tested.get(), reference.get()}) run(*level_set, 20);
+    const Mask a = good(tested->snapshot()).mask();
+    const Mask b = good(reference->snapshot()).mask();
+    double both = 0.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.voxels.size(); ++i) {
+      both += a.voxels[i] != 0 && b.voxels[i] != 0 ? 1.0 : 0.0;
+      sum += (a.voxels[i] != 0 ? 1.0 : 0.0) + (b.voxels[i] != 0 ? 1.0 : 0.0);
+    }
+    qInfo("Dice %.5f on %s", 2.0 * both / sum, found.constData());
+    QVERIFY(sum > 1000.0);
+    QVERIFY(2.0 * both / sum >= 0.999);
+  }
+
   void interior_edges_and_corners_have_the_papers_shares() {
     FullMemory full({64, 48, 3});
     const auto share = [&](solver::Substream substream) {
