@@ -5,8 +5,11 @@
 #include <QProcess>
 #include <QRegularExpression>
 #include <atomic>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -32,6 +35,11 @@ Result<Ran> run(const QStringList& arguments) {
              process.readAll().toStdString()};
 }
 
+bool complains(const Ran& ran) {
+  const auto has = [&](const char* word) { return ran.output.find(word) != std::string::npos; };
+  return !ran.well || has("ERROR") || has("WARNING");
+}
+
 std::string name_of(const gpu::ProgramSource& program, const std::string& version) {
   std::string name = version;
   for (const std::string& stage : program.stages) name += " " + stage;
@@ -39,92 +47,177 @@ std::string name_of(const gpu::ProgramSource& program, const std::string& versio
   return name;
 }
 
-// The programs that a thread has compiled: their files, and what each was put together from.
-struct Stages {
-  QStringList names;
-  std::vector<gpu::ShaderSource> sources;
+// A text for the compiler, as the first program that has it puts it together.
+struct Stage {
+  gpu::ShaderSource source;
+  std::string program;
+  QString file;    // where it was written
+  QString marked;  // the same for the preprocessor
 };
 
-// Notes the lines that the preprocessor leaves of each file, by its #line directives.
-Status note_lines(const Stages& stages, Compiled& result) {
-  static const QRegularExpression kLine("^#line (\\d+) (\\d+)");
-  const auto expanded = run(QStringList{"-E"} + stages.names);
-  if (!expanded) return pass_on(expanded);
-  std::istringstream lines(expanded->output);
+// Each line of code begins with a mark, by which it is known where it is left by the preprocessor.
+std::string with_marks(const gpu::ShaderSource& source, std::size_t stage) {
+  static const QRegularExpression kPlace("^#line (\\d+) (\\d+)");
+  std::istringstream lines(source.text);
+  std::string marked;
   std::string line;
-  auto source = stages.sources.begin() - 1;
-  const std::string* file = nullptr;
+  std::optional<int> file;
   int number = 0;
+  bool directive = false;
   while (std::getline(lines, line)) {
-    const auto match = kLine.match(QString::fromStdString(line));
-    if (line.starts_with("#version")) {
-      ++source;
-      file = nullptr;
-    } else if (match.hasMatch()) {
-      number = match.captured(1).toInt();
-      file = &source->files[match.captured(2).toUInt()];
-    } else {
-      const bool is_code = line.find_first_not_of(" \t") != std::string::npos;
-      if (file != nullptr && is_code) result.lines[*file].insert(number);
-      ++number;
+    const auto place = kPlace.match(QString::fromStdString(line));
+    const std::size_t begin = line.find_first_not_of(" \t");
+    const bool goes_on = std::exchange(directive, false);
+    if (goes_on || (begin != std::string::npos && line[begin] == '#')) {
+      directive = line.ends_with('\\');
+    } else if (file && begin != std::string::npos) {
+      marked += fmt::format("MARK_{}_{}_{} ", stage, *file, number);
     }
+    ++number;
+    if (place.hasMatch()) {
+      number = place.captured(1).toInt();
+      file = place.captured(2).toInt();
+      continue;
+    }
+    marked += line + "\n";
   }
-  return {};
+  return marked;
 }
 
-Status compile(const gpu::ProgramSource& program, const std::string& version,
-               const std::filesystem::path& stem, Stages& stages, Compiled& result) {
-  QStringList names;
-  std::string files;
+class ReferenceCompiler {
+ public:
+  explicit ReferenceCompiler(std::string version) : version_(std::move(version)) {}
+
+  Status add(const gpu::ProgramSource& program);
+  Result<Compiled> compile();
+
+ private:
+  Status compile_stages(std::size_t first, std::size_t end);
+  Status note_lines(std::size_t first, std::size_t end);
+  Status link(const QStringList& files, const std::string& program);
+  void complain(const std::string& program, const std::string& output);
+
+  std::string version_;
+  TemporaryFolder folder_;
+  std::vector<Stage> stages_;
+  std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by file and text
+  // Of programs with the same files the first and the last: that their stages fit depends on little else.
+  std::map<std::vector<std::string>, std::vector<std::pair<QStringList, std::string>>> linked_;
+  std::mutex mutex_;  // of what follows
+  Compiled result_;
+};
+
+Status ReferenceCompiler::add(const gpu::ProgramSource& program) {
+  QStringList files;
   for (const std::string& stage : program.stages) {
-    auto source = gpu::assemble_shader(stage, version, program.defines);
+    auto source = gpu::assemble_shader(stage, version_, program.defines);
     if (!source) return pass_on(source);
-    const std::string name = stem.string() + stage.substr(stage.rfind('.'));
-    std::ofstream(name) << source->text;
-    names.push_back(QString::fromStdString(name));
-    files += fmt::format("the files that places of {} count, from 0 on: {}\n", stage,
-                         fmt::join(source->files, " "));
-    stages.sources.push_back(std::move(*source));
+    const auto [known, is_new] = known_.try_emplace({stage, source->text}, stages_.size());
+    if (is_new) {
+      const std::string ending = stage.substr(stage.rfind('.'));
+      const auto written = [&](const std::string& name, const std::string& text) {
+        const std::filesystem::path file = folder_ / (name + ending);
+        std::ofstream(file) << text;
+        return QString::fromStdString(file.string());
+      };
+      const std::string number = std::to_string(stages_.size());
+      const QString file = written(number, source->text);
+      const QString marked = written("marked" + number, with_marks(*source, stages_.size()));
+      stages_.push_back({std::move(*source), name_of(program, version_), file, marked});
+    }
+    files.push_back(stages_[known->second].file);
   }
-  stages.names += names;
-  const auto linked = run(QStringList{"-l"} + names);
-  if (!linked) return pass_on(linked);
-  const auto has = [&](const char* word) { return linked->output.find(word) != std::string::npos; };
-  if (!linked->well || has("ERROR") || has("WARNING")) {
-    result.complaints.push_back(name_of(program, version) + "\n" + linked->output + files);
+  auto& linked = linked_[program.stages];
+  if (linked.size() == 2) linked.pop_back();
+  linked.emplace_back(files, name_of(program, version_));
+  return {};
+}
+
+void ReferenceCompiler::complain(const std::string& program, const std::string& output) {
+  const std::lock_guard lock(mutex_);
+  result_.complaints.push_back(program + "\n" + output);
+}
+
+// The compiler takes long to begin with, so that it gets many files at once.
+Status ReferenceCompiler::compile_stages(std::size_t first, std::size_t end) {
+  QStringList files;
+  for (std::size_t stage = first; stage < end; ++stage) files.push_back(stages_[stage].file);
+  const auto all = run(files);
+  if (!all) return pass_on(all);
+  if (!complains(*all)) return {};
+  for (std::size_t stage = first; stage < end; ++stage) {
+    const auto one = run({stages_[stage].file});
+    if (!one) return pass_on(one);
+    if (!complains(*one)) continue;
+    complain(stages_[stage].program, fmt::format("{}files, from 0 on: {}\n", one->output,
+                                                 fmt::join(stages_[stage].source.files, " ")));
   }
   return {};
 }
 
-}  // namespace
+Status ReferenceCompiler::note_lines(std::size_t first, std::size_t end) {
+  static const QRegularExpression kMark("MARK_(\\d+)_(\\d+)_(\\d+)");
+  QStringList arguments{"-E"};
+  for (std::size_t stage = first; stage < end; ++stage) arguments.push_back(stages_[stage].marked);
+  const auto expanded = run(arguments);
+  if (!expanded) return pass_on(expanded);
+  const QString text = QString::fromStdString(expanded->output);
+  const std::lock_guard lock(mutex_);
+  for (auto marks = kMark.globalMatch(text); marks.hasNext();) {
+    const auto mark = marks.next();
+    const gpu::ShaderSource& source = stages_[mark.captured(1).toULongLong()].source;
+    result_.lines[source.files[mark.captured(2).toUInt()]].insert(mark.captured(3).toInt());
+  }
+  return {};
+}
 
-Result<Compiled> compile_by_reference(const std::vector<gpu::ProgramSource>& programs,
-                                      const std::string& version) {
-  const TemporaryFolder folder;
+Status ReferenceCompiler::link(const QStringList& files, const std::string& program) {
+  const auto linked = run(QStringList{"-l"} + files);
+  if (!linked) return pass_on(linked);
+  if (complains(*linked)) complain(program, linked->output);
+  return {};
+}
+
+Result<Compiled> ReferenceCompiler::compile() {
+  constexpr std::size_t kAtOnce = 40;
+  std::vector<std::function<Status()>> tasks;
+  for (std::size_t first = 0; first < stages_.size(); first += kAtOnce) {
+    const std::size_t end = std::min(first + kAtOnce, stages_.size());
+    tasks.emplace_back([=, this] { return compile_stages(first, end); });
+    tasks.emplace_back([=, this] { return note_lines(first, end); });
+  }
+  for (const auto& [stages, programs] : linked_) {
+    for (const auto& [files, program] : programs)
+      tasks.emplace_back([&, this] { return link(files, program); });
+  }
   std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  Compiled all;
-  Status status;
+  Status failure;
   const auto work = [&] {
-    Compiled own;
-    Stages stages;
-    Status failed;
-    for (std::size_t i = next++; i < programs.size() && failed; i = next++) {
-      failed = compile(programs[i], version, folder / std::to_string(i), stages, own);
+    for (std::size_t i = next++; i < tasks.size(); i = next++) {
+      if (const Status done = tasks[i](); !done) {
+        const std::lock_guard lock(mutex_);
+        failure = done;
+      }
     }
-    if (failed && !stages.names.isEmpty()) failed = note_lines(stages, own);
-    const std::lock_guard lock(mutex);
-    if (!failed) status = failed;
-    all.complaints.insert(all.complaints.end(), own.complaints.begin(), own.complaints.end());
-    for (const auto& [file, lines] : own.lines) all.lines[file].insert(lines.begin(), lines.end());
   };
   {
     std::vector<std::jthread> threads;
     for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
       threads.emplace_back(work);
   }
-  if (!status) return pass_on(status);
-  return all;
+  if (!failure) return pass_on(failure);
+  return std::move(result_);
+}
+
+}  // namespace
+
+Result<Compiled> compile_by_reference(const std::vector<gpu::ProgramSource>& programs,
+                                      const std::string& version) {
+  ReferenceCompiler compiler(version);
+  for (const gpu::ProgramSource& program : programs) {
+    TIDEMARK_TRY(compiler.add(program));
+  }
+  return compiler.compile();
 }
 
 }  // namespace tidemark::test

@@ -15,8 +15,8 @@ struct Compiled {
   std::map<std::string, std::set<int>> lines;  // of each file, those that were left to compile
 };
 
-// Compiles and links the programs as GLSL of a version. Fails (ErrorKind::capability) where there is no
-// glslangValidator.
+// Compiles the programs as GLSL of a version, and links two of those that have the same files. Fails
+// (ErrorKind::capability) where there is no glslangValidator.
 Result<Compiled> compile_by_reference(const std::vector<gpu::ProgramSource>& programs,
                                       const std::string& version);
 
