@@ -99,7 +99,7 @@ Json to_json(const LessonQuestion& question) {
 
 // What is missing is nothing. Masks and saved level sets are of one study's grid, and no hand writes them.
 Start read_lesson_start(const JsonField& field) {
-  field.only({"from", "seeds", "erasers"});
+  field.only({"from", "seeds", "erasers", "levels"});
   if (field.has("from")) {
     const JsonField from = field.at("from");
     switch (from.at("kind").word({"spheres", "threshold", "flood"})) {

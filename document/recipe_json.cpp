@@ -150,6 +150,14 @@ MaskStart read_mask_start(const JsonField& field) {
   return start;
 }
 
+void read_levels(const JsonField& field, Start& start) {
+  if (!field.has("levels")) return;
+  start.levels = static_cast<int>(field.at("levels").integer(1, solver::CoarseGrid::kMostLevels));
+  if (start.levels > 1 && std::holds_alternative<FieldStart>(start.from)) {
+    field.at("levels").wrong("a saved level set has no coarser levels");
+  }
+}
+
 using From = decltype(Start::from);
 
 From read_from(const JsonField& from) {
@@ -185,11 +193,7 @@ Start read_start(const JsonField& field) {
   start.from = read_from(field.at("from"));
   start.seeds = read_spheres(field.at("seeds"));
   start.erasers = read_spheres(field.at("erasers"));
-  if (field.has("levels")) {
-    start.levels = static_cast<int>(field.at("levels").integer(1, solver::CoarseGrid::kMostLevels));
-    if (start.levels > 1 && std::holds_alternative<FieldStart>(start.from))
-      field.at("levels").wrong("a saved level set has no coarser levels");
-  }
+  read_levels(field, start);
   return start;
 }
 
@@ -198,6 +202,7 @@ Start read_partial_start(const JsonField& field) {
   if (field.has("from")) start.from = read_from(field.at("from"));
   if (field.has("seeds")) start.seeds = read_spheres(field.at("seeds"));
   if (field.has("erasers")) start.erasers = read_spheres(field.at("erasers"));
+  read_levels(field, start);
   return start;
 }
 

@@ -69,6 +69,16 @@ class LessonTest : public QObject {
     QCOMPARE(again->start->seeds[0].radius_mm, 10.0);
   }
 
+  void a_start_keeps_its_levels() {
+    document::Lesson lesson = lesson_of(good_lesson());
+    lesson.start->levels = 3;
+    const auto text = lesson.to_text();
+    QCOMPARE(failure(text), QString());
+    const auto again = document::Lesson::parse(*text, "again.json");
+    QCOMPARE(failure(again), QString());
+    QCOMPARE(again->start->levels, 3);
+  }
+
   void what_could_not_be_read_is_not_written() {
     document::Lesson lesson = lesson_of(good_lesson());
     lesson.parts[1].title = std::string(400, 'x');
@@ -171,6 +181,8 @@ void LessonTest::a_bad_lesson_is_refused_with_its_field_data() {
   set("/parameters/time_step_factor", "3", "parameters.time_step_factor: not a number");
   set("/start/seeds", Json::array(), "start: has nothing inside");
   set("/start/seed", 1, "start: 'seed' is no field");
+  set("/start/levels", 4, "start.levels: ");
+  set("/start/levels", "auto", "start.levels: ");
   set("/start/seeds/0/radius_mm", 0, "start.seeds[0].radius_mm: ");
   set("/start/seeds/0/radius", 1, "start.seeds[0]: 'radius' is no field");
   set("/start/from", {{"kind", "mask"}}, "start.from.kind: 'mask' is unknown");

@@ -34,7 +34,8 @@ bool can_be_written(const Start& start) {
 }
 
 bool is_same(const Start& a, const Start& b) {
-  if (a.from.index() != b.from.index() || a.seeds != b.seeds || a.erasers != b.erasers) return false;
+  if (a.from.index() != b.from.index() || a.levels != b.levels) return false;
+  if (a.seeds != b.seeds || a.erasers != b.erasers) return false;
   return std::visit(
       [&](const auto& one) {
         using Kind = std::decay_t<decltype(one)>;
