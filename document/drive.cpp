@@ -27,10 +27,6 @@ bool same_map(const std::shared_ptr<const SpeedMap>& a, const std::shared_ptr<co
 
 }  // namespace
 
-Drive value_of(const std::shared_ptr<const Drive>& drive) {
-  return drive == nullptr ? Drive() : *drive;
-}
-
 std::shared_ptr<const Drive> shared(const Drive& drive) {
   return drive == Drive() ? nullptr : std::make_shared<const Drive>(drive);
 }

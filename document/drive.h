@@ -39,7 +39,9 @@ struct Drive {
 };
 
 // The drive, and of null what executors do without any; and the other way round.
-[[nodiscard]] Drive value_of(const std::shared_ptr<const Drive>& drive);
+[[nodiscard]] inline Drive value_of(const std::shared_ptr<const Drive>& drive) {
+  return drive == nullptr ? Drive() : *drive;
+}
 [[nodiscard]] std::shared_ptr<const Drive> shared(const Drive& drive);
 // Of strokes, walls and anchors in memory.
 [[nodiscard]] std::int64_t bytes_of(const Drive& drive);
