@@ -188,7 +188,7 @@ Result<Compiled> ReferenceCompiler::compile() {
   }
   for (const auto& [stages, programs] : linked_) {
     for (const auto& [files, program] : programs)
-      tasks.emplace_back([&, this] { return link(files, program); });
+      tasks.emplace_back([this, &files = files, &program = program] { return link(files, program); });
   }
   std::atomic<std::size_t> next = 0;
   Status failure;
