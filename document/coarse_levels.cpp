@@ -1,7 +1,5 @@
 #include "document/coarse_levels.h"
 
-#include <algorithm>
-
 #include "solver/coarse_grid.h"
 #include "solver/speed/coarse_speed.h"
 
@@ -14,11 +12,6 @@ std::shared_ptr<const Volume> grid_alone(const Geometry& geometry) {
   volume->geometry = geometry;
   volume->voxels = std::vector<std::int16_t>(static_cast<std::size_t>(geometry.voxel_count()));
   return volume;
-}
-
-bool has_inside(const solver::Field& phi) {
-  return std::find(phi.table.begin(), phi.table.end(), solver::Field::kInside) != phi.table.end() ||
-         std::any_of(phi.pages.begin(), phi.pages.end(), [](float value) { return value > 0.0F; });
 }
 
 class CoarseLevels {
@@ -51,10 +44,12 @@ Result<std::optional<CoarseStart>> CoarseLevels::run() {
     if (!begun) return pass_on(begun);
     if (!*begun) return std::nullopt;
     TIDEMARK_TRY(come_to_rest(**executor, grid, start_.levels - 1 - halvings));
-    if (!has_inside(result_.phi)) return std::nullopt;
+    if (!result_.phi.has_inside()) return std::nullopt;
   }
   const solver::CoarseGrid last(inputs_.source.geometry, 1);
   result_.phi = solver::refined(result_.phi, last, inputs_.band, inputs_.page_shape);
+  // A block that is barely inside has no voxel that is.
+  if (!result_.phi.has_inside()) return std::nullopt;
   return std::move(result_);
 }
 
@@ -99,12 +94,11 @@ Result<bool> CoarseLevels::begin(solver::Executor& executor, const solver::Coars
   const Volume volume{grid.coarse(), {}};
   auto phi = place(executor, volume, coarse, progress_);
   if (!phi) return pass_on(phi);
-  return has_inside(*phi);
+  return phi->has_inside();
 }
 
 Status CoarseLevels::come_to_rest(solver::Executor& executor, const solver::CoarseGrid& grid, int level) {
-  auto advance =
-      executor.advance({kMostCoarseSteps, true, progress_.part(level, std::max(1, start_.levels - 1))});
+  auto advance = executor.advance({kMostCoarseSteps, true, progress_.part(level, start_.levels - 1)});
   if (!advance) return pass_on(advance);
   if (progress_.cancelled()) return cancelled_error();
   auto phi = executor.snapshot();

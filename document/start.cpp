@@ -152,7 +152,7 @@ Result<solver::Field> begin(solver::Executor& executor, const Volume& source, co
   const auto before = executor.snapshot();
   if (!before) return pass_on(before);
   auto phi = place(executor, source, start, progress);
-  if (phi && phi->mask().count() == 0) {
+  if (phi && !phi->has_inside()) {
     phi = fail(ErrorKind::usage, "the start is empty: no voxel is inside ({})", start.describe());
   }
   if (!phi) {

@@ -17,6 +17,21 @@ std::int64_t Field::resident_pages() const {
   return static_cast<std::int64_t>(pages.size()) / layout.voxels_per_page();
 }
 
+bool Field::has_inside() const {
+  bool found = false;
+  for (std::int64_t page = 0; page < layout.page_count() && !found; ++page) {
+    const std::int32_t entry = table[static_cast<std::size_t>(page)];
+    found = entry == kInside;
+    if (entry < 0) continue;
+    const float* values = pages.data() + entry * layout.voxels_per_page();
+    for_each_row(geometry, layout, page, [&](std::int64_t, std::int64_t length, std::int64_t index) {
+      const float* row = values + index;
+      found = found || std::any_of(row, row + length, [](float phi) { return phi > 0.0F; });
+    });
+  }
+  return found;
+}
+
 Status Field::check_fits(const Geometry& grid, double wanted_band) const {
   if (geometry.size != grid.size) {
     return fail(ErrorKind::usage, "phi has {} x {} x {} voxels, the volume has {} x {} x {}", geometry.size.x,

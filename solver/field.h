@@ -24,6 +24,7 @@ struct Field {
 
   [[nodiscard]] float at(Index3 voxel) const;
   [[nodiscard]] std::int64_t resident_pages() const;
+  [[nodiscard]] bool has_inside() const;  // phi > 0 in a voxel
 
   [[nodiscard]] std::vector<float> dense() const;  // in voxel order
   [[nodiscard]] Volume to_volume() const;          // a float volume, for saving and for the surface

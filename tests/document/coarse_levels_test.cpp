@@ -38,10 +38,7 @@ document::Recipe recipe_in_levels(const Volume& volume, int levels) {
 
 document::Evolution at_rest(const document::Recipe& recipe, const std::shared_ptr<const Volume>& volume,
                             solver::ExecutorKind kind) {
-  document::EvolutionOptions options{kind, {}, true};
-  auto evolution = document::evolve(recipe, volume, options);
-  if (!evolution) qFatal("%s", evolution.error().message.c_str());
-  return std::move(*evolution);
+  return evolved(recipe, volume, {kind, {}, true});
 }
 
 }  // namespace
@@ -192,6 +189,26 @@ class CoarseLevelsTest : public QObject {
     const auto fine = at_rest(recipe, volume, solver::ExecutorKind::host);
     QVERIFY(fine.coarse_runs.empty());
     QCOMPARE(fine.phi.mask().count(), std::int64_t{1});
+  }
+
+  // A block that is barely inside: none of its voxels is, once phi lies between blocks.
+  void what_the_finer_grid_would_lose_begins_on_the_finest_level() {
+    auto volume = std::make_shared<Volume>();
+    volume->geometry.size = {24, 24, 24};
+    std::vector<std::int16_t> voxels(static_cast<std::size_t>(volume->geometry.voxel_count()));
+    for (std::int64_t i = 0; i < 8; ++i) {
+      const Index3 voxel = Index3(10, 12, 8) + Index3(i & 1, i >> 1 & 1, i >> 2);
+      voxels[static_cast<std::size_t>(volume->geometry.offset(voxel))] = 850;
+    }
+    volume->voxels = std::move(voxels);
+    document::Recipe recipe = recipe_in_levels(*volume, 2);
+    recipe.start.seeds.clear();
+    recipe.start.from = document::ThresholdStart{800.0, 900.0};
+    recipe.parameters.alpha = 1.0;
+    recipe.steps = 0;
+    const auto fine = at_rest(recipe, volume, solver::ExecutorKind::host);
+    QVERIFY(fine.coarse_runs.empty());
+    QCOMPARE(fine.phi.mask().count(), std::int64_t{8});
   }
 
   void a_cancelled_one_leaves_the_case_as_it_was() {

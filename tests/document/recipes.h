@@ -14,11 +14,17 @@ inline document::Recipe again(const document::Recipe& recipe) {
   return std::move(*read);
 }
 
+inline document::Evolution evolved(const document::Recipe& recipe,
+                                   const std::shared_ptr<const Volume>& volume,
+                                   const document::EvolutionOptions& options = {}) {
+  auto evolution = document::evolve(recipe, volume, options);
+  if (!evolution) qFatal("%s", evolution.error().message.c_str());
+  return std::move(*evolution);
+}
+
 inline std::vector<float> replayed(const document::Recipe& recipe,
                                    const std::shared_ptr<const Volume>& volume) {
-  const auto result = document::evolve(recipe, volume, {});
-  if (!result) qFatal("%s", result.error().message.c_str());
-  return result->phi.dense();
+  return evolved(recipe, volume).phi.dense();
 }
 
 }  // namespace tidemark::test

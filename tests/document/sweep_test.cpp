@@ -49,10 +49,7 @@ document::Evolution alone(document::Recipe recipe, const document::SweepRun& run
                           const std::shared_ptr<const Volume>& volume, bool until_converged) {
   recipe.parameters = run.parameters;
   if (run.drive != nullptr) recipe.drive = run.drive;
-  document::EvolutionOptions options{solver::ExecutorKind::host, {}, until_converged};
-  auto evolution = document::evolve(recipe, volume, options);
-  if (!evolution) qFatal("%s", evolution.error().message.c_str());
-  return std::move(*evolution);
+  return evolved(recipe, volume, {solver::ExecutorKind::host, {}, until_converged});
 }
 
 }  // namespace
