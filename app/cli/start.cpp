@@ -11,6 +11,8 @@
 namespace tidemark::cli {
 namespace {
 
+constexpr const char* kGroup = "Start (at least one)";
+
 Index3 flood_seed(const std::vector<double>& flood) {
   return {std::llround(flood[0]), std::llround(flood[1]), std::llround(flood[2])};
 }
@@ -45,24 +47,6 @@ Result<std::vector<solver::Sphere>> resolve(const std::vector<SphereArgument>& a
   return spheres;
 }
 
-constexpr int kMostLevels = solver::CoarseGrid::kMostLevels;
-
-int levels_of(const StartOptions& options, const Geometry& grid) {
-  if (!options.levels) return 1;
-  return *options.levels == "auto" ? solver::levels_for(grid) : options.levels->front() - '0';
-}
-
-Status check_levels(const StartOptions& options) {
-  if (!options.levels || *options.levels == "1") return {};
-  const std::string& levels = *options.levels;
-  const bool number = levels.size() == 1 && levels[0] >= '1' && levels[0] - '0' <= kMostLevels;
-  if (!number && levels != "auto") {
-    return fail(ErrorKind::usage, "--levels {}: must be auto or a number from 1 to {}", levels, kMostLevels);
-  }
-  if (options.phi) return fail(ErrorKind::usage, "--levels: --init-phi goes on as it is, on the finest");
-  return {};
-}
-
 Status check_order(const std::string& option, double low, double high) {
   if (low <= high) return {};
   return fail(ErrorKind::usage, "{}: the lower limit {} is above the upper limit {}", option, low, high);
@@ -71,7 +55,6 @@ Status check_order(const std::string& option, double low, double high) {
 }  // namespace
 
 void add_start_options(CLI::App& app, StartOptions& options) {
-  const char* const kGroup = "Start (at least one)";
   add_spheres(app, "--seed", SphereUnits::voxels, options.seeds,
               "A ball around voxel I,J,K with radius R in mm; may be repeated")
       ->group(kGroup);
@@ -102,15 +85,19 @@ void add_start_options(CLI::App& app, StartOptions& options) {
 }
 
 void add_levels_option(CLI::App& app, StartOptions& options) {
-  app.add_option("--levels", options.levels,
-                 "Coarse to fine: come to rest on a quarter and a half of the resolution first (3), on half\n"
-                 "(2), on as many levels as suit the volume (auto), or not (1, the default)")
-      ->type_name("auto|N")
-      ->group("Start (at least one)");
+  std::map<std::string, int> words{{"auto", kLevelsBySize}};
+  for (int levels = 1; levels <= solver::CoarseGrid::kMostLevels; ++levels)
+    words[std::to_string(levels)] = levels;
+  add_choice(app, "--levels", options.levels, words,
+             "Coarse to fine: come to rest on a quarter and a half of the resolution first (3), on half\n"
+             "(2), on as many levels as suit the volume (auto), or not (1, the default)")
+      ->group(kGroup);
 }
 
 Status check(const StartOptions& options) {
-  TIDEMARK_TRY(check_levels(options));
+  if (options.phi && options.levels != 1) {
+    return fail(ErrorKind::usage, "--levels: --init-phi goes on as it is, on the finest");
+  }
   const int inits = int{options.mask.has_value()} + int{options.threshold.has_value()} +
                     int{options.flood.has_value()} + int{options.phi.has_value()};
   if (inits > 1) {
@@ -168,7 +155,7 @@ Result<document::Start> make_start(const StartOptions& options, const Geometry& 
   auto erasers = resolve(options.erasers, grid);
   if (!erasers) return pass_on(erasers);
   start.erasers = std::move(*erasers);
-  start.levels = levels_of(options, grid);
+  start.levels = options.levels == kLevelsBySize ? solver::levels_for(grid) : options.levels;
   return start;
 }
 

@@ -13,6 +13,8 @@
 
 namespace tidemark::cli {
 
+inline constexpr int kLevelsBySize = 0;
+
 // At most one of the init options; seeds are added to it, then erasers are subtracted.
 struct StartOptions {
   std::vector<SphereArgument> seeds;
@@ -21,7 +23,7 @@ struct StartOptions {
   std::optional<std::vector<double>> threshold;  // --init-threshold: low, high
   std::optional<std::vector<double>> flood;      // --init-flood: i, j, k, low, high
   std::optional<std::string> phi;                // --init-phi
-  std::optional<std::string> levels;             // --levels: "auto", or a number; unset: 1
+  int levels = 1;                                // --levels; kLevelsBySize: auto
 
   [[nodiscard]] bool given() const { return !seeds.empty() || mask || threshold || flood || phi; }
 };
@@ -31,7 +33,7 @@ void add_start_options(CLI::App& app, StartOptions& options);
 // --levels, of commands that begin coarse to fine.
 void add_levels_option(CLI::App& app, StartOptions& options);
 
-// The checks without a volume: at most one init option, limits in order, levels that there are. Fails with
+// The checks without a volume: at most one init option, limits in order, no levels of a saved phi. Fails with
 // ErrorKind::usage.
 Status check(const StartOptions& options);
 

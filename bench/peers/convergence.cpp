@@ -40,21 +40,17 @@ void add_goals(const Problem& problem, const std::map<std::string, const Entry*>
   const auto itk = entries.find("itk-threshold");
   const auto parallel = entries.find("itk-parallel");
   if (ours == entries.end() || itk == entries.end()) return;
-  const double seconds = median(ours->second->seconds);
-  report.at_least(problem.name + ": host against itk-threshold, time to convergence",
-                  median(itk->second->seconds) / seconds, 20);
-  if (parallel != entries.end()) {
-    report.at_least(problem.name + ": host against itk-parallel, time to convergence",
-                    median(parallel->second->seconds) / seconds, 12);
-  }
+  const auto add_ratios = [&](const char* who, const Entry& entry, double to_one, double to_parallel) {
+    const double seconds = median(entry.seconds);
+    report.at_least(fmt::format("{}: {} against itk-threshold, time to convergence", problem.name, who),
+                    median(itk->second->seconds) / seconds, to_one);
+    if (parallel == entries.end()) return;
+    report.at_least(fmt::format("{}: {} against itk-parallel, time to convergence", problem.name, who),
+                    median(parallel->second->seconds) / seconds, to_parallel);
+  };
+  add_ratios("host", *ours->second, 20, 12);
   if (const auto levels = entries.find("host-levels"); levels != entries.end() && problem.seed) {
-    const double sooner = median(levels->second->seconds);
-    report.at_least(problem.name + ": host coarse to fine against itk-threshold, time to convergence",
-                    median(itk->second->seconds) / sooner, 60);
-    if (parallel != entries.end()) {
-      report.at_least(problem.name + ": host coarse to fine against itk-parallel, time to convergence",
-                      median(parallel->second->seconds) / sooner, 40);
-    }
+    add_ratios("host coarse to fine", *levels->second, 60, 40);
     report.at_least(problem.name + ": Dice of host coarse to fine with host",
                     dice(levels->second->last.result, ours->second->last.result), 0.995, 4);
   }

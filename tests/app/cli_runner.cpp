@@ -71,11 +71,6 @@ QString text(const std::filesystem::path& path) {
   return QString::fromStdString(path.string());
 }
 
-QByteArray bytes_of(const std::filesystem::path& file) {
-  QFile opened(text(file));
-  return opened.open(QIODevice::ReadOnly) ? opened.readAll() : QByteArray();
-}
-
 QJsonObject json_of(const QByteArray& bytes) {
   return QJsonDocument::fromJson(bytes).object();
 }

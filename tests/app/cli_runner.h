@@ -41,7 +41,6 @@ Outcome must_run(const QStringList& arguments, const RunOptions& options = {});
 bool start_cli(QProcess& process, const QStringList& arguments, const QByteArray& line);
 
 QString text(const std::filesystem::path& path);
-QByteArray bytes_of(const std::filesystem::path& file);
 QJsonObject json_of(const QByteArray& bytes);
 
 // The names in a folder, hidden ones too.

@@ -20,11 +20,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-QByteArray bytes_of(const std::filesystem::path& file) {
-  QFile opened(QString::fromStdString(file.string()));
-  return opened.open(QIODevice::ReadOnly) ? opened.readAll() : QByteArray();
-}
-
 void write_bytes(const std::filesystem::path& file, const QByteArray& bytes) {
   QFile opened(QString::fromStdString(file.string()));
   if (!opened.open(QIODevice::WriteOnly) || opened.write(bytes) != bytes.size()) qFatal("cannot write");

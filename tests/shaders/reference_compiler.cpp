@@ -63,16 +63,10 @@ std::string with_marks(const gpu::ShaderSource& source, std::size_t stage) {
   std::string line;
   std::optional<int> file;
   int number = 0;
-  bool directive = false;
+  CodeLines code;
   while (std::getline(lines, line)) {
     const auto place = kPlace.match(QString::fromStdString(line));
-    const std::size_t begin = line.find_first_not_of(" \t");
-    const bool goes_on = std::exchange(directive, false);
-    if (goes_on || (begin != std::string::npos && line[begin] == '#')) {
-      directive = line.ends_with('\\');
-    } else if (file && begin != std::string::npos) {
-      marked += fmt::format("MARK_{}_{}_{} ", stage, *file, number);
-    }
+    if (code.is_code(line) && file) marked += fmt::format("MARK_{}_{}_{} ", stage, *file, number);
     ++number;
     if (place.hasMatch()) {
       number = place.captured(1).toInt();
@@ -210,6 +204,15 @@ Result<Compiled> ReferenceCompiler::compile() {
 }
 
 }  // namespace
+
+bool CodeLines::is_code(const std::string& line) {
+  const std::size_t begin = line.find_first_not_of(" \t");
+  const bool goes_on = std::exchange(directive_, false);
+  if (begin == std::string::npos || line.compare(begin, 2, "//") == 0) return false;
+  const bool directive = goes_on || line[begin] == '#';
+  directive_ = directive && line.back() == '\\';
+  return !directive;
+}
 
 Result<Compiled> compile_by_reference(const std::vector<gpu::ProgramSource>& programs,
                                       const std::string& version) {

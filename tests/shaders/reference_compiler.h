@@ -10,6 +10,15 @@
 
 namespace tidemark::test {
 
+// Tells lines of code, one after the other, from comments, blank lines and what is for the preprocessor.
+class CodeLines {
+ public:
+  [[nodiscard]] bool is_code(const std::string& line);
+
+ private:
+  bool directive_ = false;  // goes on from the line before
+};
+
 struct Compiled {
   std::vector<std::string> complaints;  // errors and warnings: the program, and the compiler's own words
   std::map<std::string, std::set<int>> lines;  // of each file, those that were left to compile

@@ -27,17 +27,10 @@ bool less(const gpu::ProgramSource& a, const gpu::ProgramSource& b) {
 std::vector<int> lines_of_code(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::vector<int> lines;
-  bool directive = false;
+  CodeLines code;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
-    const std::size_t begin = line.find_first_not_of(" \t");
-    const bool goes_on = std::exchange(directive, false);
-    if (begin == std::string::npos || line.compare(begin, 2, "//") == 0) continue;
-    if (goes_on || line[begin] == '#') {
-      directive = line.back() == '\\';
-      continue;
-    }
-    lines.push_back(number);
+    if (code.is_code(line)) lines.push_back(number);
   }
   return lines;
 }

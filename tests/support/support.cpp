@@ -1,9 +1,15 @@
 #include "tests/support/support.h"
 
+#include <QFile>
 #include <cstdio>
 #include <cstdlib>
 
 namespace tidemark::test {
+
+QByteArray bytes_of(const std::filesystem::path& file) {
+  QFile opened(QString::fromStdString(file.string()));
+  return opened.open(QIODevice::ReadOnly) ? opened.readAll() : QByteArray();
+}
 
 std::filesystem::path studies_folder() {
   const char* chosen = std::getenv("TIDEMARK_STUDIES");

@@ -21,6 +21,9 @@ class TemporaryFolder {
   QTemporaryDir folder_;
 };
 
+// Of a whole file; empty where it cannot be read.
+QByteArray bytes_of(const std::filesystem::path& file);
+
 // Sets a variable of the environment as long as it lives.
 class Variable {
  public:

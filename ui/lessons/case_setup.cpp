@@ -17,14 +17,8 @@ QString text(const char* words) {
 
 // As carry_out() begins without another start.
 Start own_start(const engine::LoadedStudy& study) {
-  Start start;
-  if (study.start && study.start->seed) {
-    const auto& [i, j, k, radius_mm] = *study.start->seed;
-    start.seeds.push_back({study.volume->geometry.to_patient({i, j, k}), radius_mm});
-  } else if (study.start && study.start->threshold) {
-    start.from = document::ThresholdStart{study.start->threshold->first, study.start->threshold->second};
-  }
-  return start;
+  const engine::PhantomStart known = study.start.value_or(engine::PhantomStart{});
+  return document::suggested_start(study.volume->geometry, known.seed, known.threshold);
 }
 
 // Masks and saved level sets are of one study's grid: lesson files have none.

@@ -114,9 +114,10 @@ void TryForm::add_views(Form& form) {
   auto* whole = new QWidget;
   auto* row = row_in(whole);
   const QString titles[] = {tr("Contours"), tr("Pages"), tr("Speed"), tr("Truth")};
-  const QString tips[] = {
-      tr("Lines where φ is -2, -1, 1 and 2, beside the surface."), tr("The pages of memory that the surface uses."),
-      tr("The speed at each place, in colours."), tr("The phantom's true outline beside the surface.")};
+  const QString tips[] = {tr("Lines where φ is -2, -1, 1 and 2, beside the surface."),
+                          tr("The pages of memory that the surface uses."),
+                          tr("The speed at each place, in colours."),
+                          tr("The phantom's true outline beside the surface.")};
   for (std::size_t i = 0; i < document::lesson_view_names().size(); ++i) {
     auto* check = new QCheckBox(titles[i]);
     check->setToolTip(tips[i]);

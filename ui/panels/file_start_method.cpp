@@ -82,19 +82,17 @@ void FileStartMethod::choose() {
   dialog->open();
 }
 
-void FileStartMethod::start() {
+void FileStartMethod::start(int levels) {
   const QPointer<engine::CaseProxy> wanted(proxy());
   const std::filesystem::path path(path_->text().toStdU16String());
-  StartRequest request{kind_, path, proxy()->volume().geometry, proxy()->state().band, std::nullopt};
+  StartRequest request{kind_, path, proxy()->volume().geometry, proxy()->state().band, std::nullopt, levels};
   if (refine_) request.within_mm = refine_->within_mm();
-  reading_ = engine::BackgroundJob::start(
-      this, [this, wanted, request, levels = levels()](engine::BackgroundJob& job) {
-        const auto start = std::make_shared<Result<document::Start>>(without_exceptions([&] {
-          return load_start(request, {nullptr, job.stop()});
-        }));
-        if (*start) (*start)->levels = levels;
-        job.deliver([this, wanted, start] { take(*start, wanted); });
-      });
+  reading_ = engine::BackgroundJob::start(this, [this, wanted, request](engine::BackgroundJob& job) {
+    const auto start = std::make_shared<Result<document::Start>>(without_exceptions([&] {
+      return load_start(request, {nullptr, job.stop()});
+    }));
+    job.deliver([this, wanted, start] { take(*start, wanted); });
+  });
   emit changed();
 }
 

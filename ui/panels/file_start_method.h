@@ -26,7 +26,7 @@ class FileStartMethod : public StartMethod {
   [[nodiscard]] bool can_start() const override;
   [[nodiscard]] bool has_levels() const override { return kind_ == StartFile::mask; }
   // Reads the file beside the user interface, then begins in the case of the request.
-  void start() override;
+  void start(int levels) override;
 
  protected:
   void refresh() override {}

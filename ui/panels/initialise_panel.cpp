@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "solver/coarse_grid.h"
 #include "ui/look/theme.h"
 #include "ui/panels/file_start_method.h"
 #include "ui/panels/smoothing_controls.h"
@@ -55,10 +56,6 @@ void InitialisePanel::add_start() {
   coarse_to_fine_->setToolTip(
       tr("The surface comes to rest at a quarter and half of the resolution before its first step. Much "
          "sooner at rest in a large study; what is thinner than a few voxels can be missed."));
-  connect(coarse_to_fine_, &QCheckBox::toggled, this, [this](bool wanted) {
-    for (StartMethod* method : methods_) method->set_coarse_to_fine(wanted);
-    show_sentence();
-  });
   sentence_ = make_note({});
   replaces_ = make_note(tr("It replaces the present surface; Undo brings that back."));
   replaces_->setForegroundRole(QPalette::PlaceholderText);
@@ -69,7 +66,7 @@ void InitialisePanel::add_start() {
   start_->setToolTip(tr("Places the surface as said above."));
   connect(start_, &QPushButton::clicked, this, [this] {
     problem_->hide();
-    methods_[static_cast<std::size_t>(method_)]->start();
+    methods_[static_cast<std::size_t>(method_)]->start(coarse_to_fine_->isChecked() ? levels() : 1);
   });
   for (QWidget* widget :
        {static_cast<QWidget*>(coarse_to_fine_), static_cast<QWidget*>(sentence_),
@@ -88,12 +85,16 @@ void InitialisePanel::show_method(int index) {
   show_sentence();
 }
 
+int InitialisePanel::levels() const {
+  const StartMethod& method = *methods_[static_cast<std::size_t>(method_)];
+  return method.has_levels() ? solver::levels_for(proxy()->volume().geometry) : 1;
+}
+
 void InitialisePanel::show_sentence() {
   if (!proxy()) return;
   const StartMethod& method = *methods_[static_cast<std::size_t>(method_)];
   sentence_->setText(method.sentence());
-  // A small study has no coarser level that is worth its while.
-  coarse_to_fine_->setVisible(method.has_levels() && solver::levels_for(proxy()->volume().geometry) > 1);
+  coarse_to_fine_->setVisible(levels() > 1);
   start_->setEnabled(method.can_start());
   replaces_->setVisible(proxy()->state().begun && method.can_start());
 }

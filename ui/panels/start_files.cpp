@@ -7,9 +7,10 @@
 namespace tidemark::ui {
 
 Result<document::Start> load_start(const StartRequest& request, const Progress& progress) {
-  const auto& [kind, path, grid, band, within_mm] = request;
+  const auto& [kind, path, grid, band, within_mm, levels] = request;
   const std::string name = path.filename().string();
   document::Start start;
+  start.levels = levels;
   if (kind == StartFile::mask) {
     auto loaded = imaging::load_any_mask(path, &grid, progress);
     if (!loaded) return pass_on(loaded);

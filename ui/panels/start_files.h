@@ -17,6 +17,7 @@ struct StartRequest {
   Geometry grid;                    // of the study
   double band = 2.5;                // W of the level set that is to begin
   std::optional<double> within_mm;  // of a mask that is refined
+  int levels = 1;
 };
 
 // A mask (voxels other than 0 are inside), or a saved phi, on the grid of the study; the file's axes may be

@@ -79,10 +79,10 @@ bool SphereStartMethod::can_start() const {
   return proxy() != nullptr;
 }
 
-void SphereStartMethod::start() {
+void SphereStartMethod::start(int levels) {
   document::Start start;
   start.seeds.push_back({proxy()->display().settings().cursor_mm, radius_->value()});
-  start.levels = levels();
+  start.levels = levels;
   proxy()->begin(start);
 }
 
@@ -186,14 +186,14 @@ bool ValueStartMethod::can_start() const {
   return here >= low_->value() && here <= high_->value();
 }
 
-void ValueStartMethod::start() {
+void ValueStartMethod::start(int levels) {
   document::Start start;
   if (extent_ == Extent::everywhere) {
     start.from = document::ThresholdStart{low_->value(), high_->value()};
   } else {
     start.from = document::FloodStart{*voxel(), low_->value(), high_->value()};
   }
-  start.levels = levels();
+  start.levels = levels;
   proxy()->begin(start);
 }
 
@@ -248,9 +248,9 @@ bool LabelStartMethod::can_start() const {
   return proxy() && label_->count() > 0;
 }
 
-void LabelStartMethod::start() {
+void LabelStartMethod::start(int levels) {
   proxy()->begin_from_label(static_cast<std::uint8_t>(label_->currentData().toUInt()), refine_->within_mm(),
-                            levels());
+                            levels);
 }
 
 }  // namespace tidemark::ui

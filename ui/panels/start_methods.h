@@ -20,7 +20,7 @@ class SphereStartMethod : public StartMethod {
   [[nodiscard]] QString title() const override { return tr("Spheres"); }
   [[nodiscard]] QString sentence() const override;
   [[nodiscard]] bool can_start() const override;
-  void start() override;
+  void start(int levels) override;
 
  protected:
   void refresh() override;
@@ -39,7 +39,7 @@ class ValueStartMethod : public StartMethod {
   [[nodiscard]] QString title() const override;
   [[nodiscard]] QString sentence() const override;
   [[nodiscard]] bool can_start() const override;
-  void start() override;
+  void start(int levels) override;
 
  protected:
   void attach() override;
@@ -66,7 +66,7 @@ class LabelStartMethod : public StartMethod {
   [[nodiscard]] QString title() const override { return tr("Label"); }
   [[nodiscard]] QString sentence() const override;
   [[nodiscard]] bool can_start() const override;
-  void start() override;
+  void start(int levels) override;
 
  protected:
   void attach() override;

@@ -7,10 +7,10 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QRadioButton>
-#include <QScrollArea>
 #include <QTest>
 #include <filesystem>
 
+#include "tests/ui/in_sight.h"
 #include "ui/widgets/number_box.h"
 
 namespace tidemark::test {
@@ -24,9 +24,7 @@ Widget* at_hand(QWidget& editor, const QString& name) {
     if (widget->accessibleName() != name && !(button && button->text() == name)) continue;
     if (!widget->isVisible()) continue;
     const bool can_be_clicked = QTest::qWaitFor([widget] {
-      for (QWidget* outer = widget->parentWidget(); outer != nullptr; outer = outer->parentWidget()) {
-        if (auto* scroll = qobject_cast<QScrollArea*>(outer)) scroll->ensureWidgetVisible(widget);
-      }
+      bring_into_sight(*widget);
       return !widget->visibleRegion().isEmpty();
     });
     if (!can_be_clicked) qFatal("%s is out of sight", qPrintable(name));

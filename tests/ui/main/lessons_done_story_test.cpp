@@ -38,11 +38,6 @@ QList<QStringList> fields_of(const QString& csv) {
   return lines;
 }
 
-QByteArray bytes_of(const std::filesystem::path& path) {
-  QFile file(QString::fromStdString(path.string()));
-  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
-
 // The student is wrong in every third part.
 std::size_t choice_in(const document::Lesson& lesson, std::size_t part) {
   const document::LessonQuestion& question = *lesson.parts[part].question;

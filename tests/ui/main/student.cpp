@@ -5,9 +5,9 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QRadioButton>
-#include <QScrollArea>
 #include <QTimer>
 
+#include "tests/ui/in_sight.h"
 #include "ui/lessons/hand_in_box.h"
 
 namespace tidemark::test {
@@ -32,9 +32,7 @@ QPushButton* Student::button(const QString& text) const {
 
 void Student::click(QWidget& widget, QPoint at) {
   const bool in_sight = Desktop::wait_for([&] {
-    for (QWidget* outer = widget.parentWidget(); outer; outer = outer->parentWidget()) {
-      if (auto* scroll = qobject_cast<QScrollArea*>(outer)) scroll->ensureWidgetVisible(&widget);
-    }
+    bring_into_sight(widget);
     return widget.visibleRegion().contains(at);
   });
   QVERIFY2(in_sight, widget.metaObject()->className());
