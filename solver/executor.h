@@ -28,21 +28,22 @@ struct PassRecord;
 // The end of a run of steps.
 struct Advance {
   std::int64_t steps = 1;        // at most
-  bool until_converged = false;  // stop when the surface has stopped moving (see kConvergedSpeed)
+  bool until_converged = false;  // stop when the surface has stopped moving (see kRestVolume)
   Progress progress = {};        // fraction = steps done / steps; cancelling keeps what was computed
 };
 
-// The surface counts as stopped when its normal speed over kConvergenceWindow steps, in smallest voxel
-// spacings per unit of time (a front with D = 1, alpha = 1 moves at 1), is below this. The speed is the root
-// mean square over the voxels beside the surface, those with |phi| at most the largest spacing (1 on an
-// isotropic grid), from the change of phi over two steps, so that a voxel that flips between two values does
-// not count as motion. A change of phi or of the parameters begins a new window.
-inline constexpr double kConvergedSpeed = 0.01;
+// The surface has stopped when no page of it moves (solver/convergence.h). A page moves when its volume
+// inside, a mean over kConvergenceWindow steps, has changed by more than this part of the page (1 voxel of
+// 8^3) within the time below. Only what goes on in one direction counts: voxels that flicker do not. After a
+// change of phi or of the parameters, what moved before no longer counts.
+inline constexpr double kRestVolume = 1.0 / 512.0;
+// By alpha, which counts as 1/4 at least: in this time a front with D = 1 passes so many smallest voxel
+// spacings.
+inline constexpr double kRestTime = 5.0;
 inline constexpr int kConvergenceWindow = 16;
-// The same mean over the page where it is largest, times this, is the speed if that is more: a large surface
-// at rest does not hide a front that creeps in one of its pages at 0.06 or more. A weight of 1 would wait for
-// the last voxels that flip for a while.
-inline constexpr double kFastestPageWeight = 1.0 / 6.0;
+// A surface that moves more slowly here counts as resting here, in smallest voxel spacings a unit of time (a
+// front with D = 1, alpha = 1 moves at 1).
+inline constexpr double kConvergedSpeed = 0.01;
 // A page may rest when phi changed by no more than this over such a window, beside the surface.
 inline constexpr float kQuietChange = 1e-3F;
 
@@ -54,7 +55,8 @@ struct AdvanceReport {
   double paging_seconds = 0.0;  // of these, allocation, freeing and lists (compute: see time_paging)
   std::int64_t voxel_updates =
       0;                       // voxels really computed: quiet pages, clamped rows and padding do not count
-  double surface_speed = 0.0;  // as measured for convergence, in the last full window
+  double surface_speed = 0.0;  // of the page that goes on fastest, in the last full window
+  std::int64_t moving_pages = 0;  // pages in which the surface still moved then
 };
 
 struct MemoryReport {
@@ -108,6 +110,8 @@ class Executor {
   [[nodiscard]] virtual MemoryReport memory() const = 0;
   // The virtual pages that are resident, but not computed at present. Fails as snapshot() does.
   [[nodiscard]] virtual Result<std::vector<std::int64_t>> quiet_pages() const = 0;
+  // The virtual pages in which the surface still moved in the last full window. Fails as snapshot() does.
+  [[nodiscard]] virtual Result<std::vector<std::int64_t>> moving_pages() const = 0;
   // Shows where phi lies on the GPU (solver/gl/packed_view.h), with the executor's context current. Returns
   // false where it does not lie on one, or cannot be read there.
   virtual bool packed_view(PackedView& /*view*/) { return false; }

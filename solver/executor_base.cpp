@@ -31,16 +31,31 @@ void ExecutorBase::take(Drive drive) {
   model_ = drive.model;
 }
 
-Result<std::shared_ptr<const SpeedFunction>> ExecutorBase::following_speed() const {
-  if (!speed_->follows_surface()) return nullptr;
-  auto phi = snapshot();
+Status ExecutorBase::follow_surface() {
+  if (steps_in_window_ != 0 || !speed_->follows_surface()) return {};
+  const auto phi = snapshot();
   if (!phi) return pass_on(phi);
-  return speed_->following(*phi);
+  auto speed = speed_->following(*phi);
+  if (speed == nullptr) return {};  // the present one fits
+  is_following_ = true;
+  const Status taken = set_speed(std::move(speed));
+  is_following_ = false;
+  return taken;
 }
 
 Status ExecutorBase::check_fits(const Constraints& constraints) const {
   if (constraints.layout().volume_size() == source_->geometry.size) return {};
   return fail(ErrorKind::usage, "walls and anchors are on another grid than the volume");
+}
+
+RestRule ExecutorBase::rest_rule(std::int64_t voxels_per_page) const {
+  const auto constants = model_.constants<double>();
+  return RestRule::of(model_.time_step(), constants.data_weight, constants.near, voxels_per_page);
+}
+
+void ExecutorBase::restart_watch(std::int64_t voxels_per_page) {
+  steps_in_window_ = 0;
+  if (!is_following_) watch_.restart(rest_rule(voxels_per_page));
 }
 
 Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
@@ -51,13 +66,7 @@ Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
   AdvanceReport report;
   steps_of_last_run_ = 0;
   while (report.steps < run.steps && !run.progress.cancelled()) {
-    if (steps_in_window_ == 0 && speed_->follows_surface()) {
-      auto speed = following_speed();
-      if (!speed) return pass_on(speed);
-      if (*speed != nullptr) {
-        TIDEMARK_TRY(set_speed(*speed));
-      }
-    }
+    TIDEMARK_TRY(follow_surface());
     steps_of_last_run_ = ++report.steps;
     auto window_ended = step(report);
     if (!window_ended) return pass_on(window_ended);
@@ -66,11 +75,12 @@ Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
       since_report.restart();
     }
     if (*window_ended) {
-      report.converged = surface_speed_ < kConvergedSpeed;
+      report.converged = watch_.rests();
       if (report.converged && run.until_converged) break;
     }
   }
-  report.surface_speed = surface_speed_;
+  report.surface_speed = watch_.speed();
+  report.moving_pages = watch_.moving_pages();
   report.seconds = whole.seconds();
   return report;
 }

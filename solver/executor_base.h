@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "solver/executor.h"
+#include "solver/convergence.h"
 #include "solver/model.h"
 
 namespace tidemark::solver {
@@ -31,12 +31,13 @@ class ExecutorBase : public Executor {
   [[nodiscard]] Result<Drive> drive_with(const Parameters& parameters,
                                          std::shared_ptr<const SpeedFunction> given) const;
   void take(Drive drive);
-  // The function that belongs to the present phi, where it follows the surface; null: the present one fits.
-  [[nodiscard]] Result<std::shared_ptr<const SpeedFunction>> following_speed() const;
+  // Takes the function that belongs to the present phi, where it follows the surface. The watch goes on.
+  Status follow_surface();
+  [[nodiscard]] bool is_following() const { return is_following_; }
   [[nodiscard]] Status check_fits(const Constraints& constraints) const;
 
   // Steps one by one until the run ends. `step` computes one, adds its voxels and its paging to the report,
-  // and returns whether a window of steps ended with it, so that surface_speed_ is new.
+  // and returns whether a window of steps ended with it, so that watch_ has something new.
   Result<AdvanceReport> run_steps(const Advance& run,
                                   const std::function<Result<bool>(AdvanceReport&)>& step);
 
@@ -48,8 +49,15 @@ class ExecutorBase : public Executor {
   // Of the window over which motion is summed up. The change over two steps is known after the second.
   int steps_in_window_ = 0;
   [[nodiscard]] bool next_step_is_measured() const { return steps_in_window_ % 2 == 1; }
-  double surface_speed_ = 0.0;  // in the last full window
+  // For pages of so many voxels.
+  [[nodiscard]] RestRule rest_rule(std::int64_t voxels_per_page) const;
+  // What moved so far no longer counts; while a function follows the surface it does.
+  void restart_watch(std::int64_t voxels_per_page);
+  MotionWatch watch_;
   std::int64_t steps_of_last_run_ = 0;
+
+ private:
+  bool is_following_ = false;
 };
 
 }  // namespace tidemark::solver

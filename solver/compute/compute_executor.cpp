@@ -198,6 +198,12 @@ void ComputeExecutor::order_end_of_window(int now) {
   set_layout(find_quiet_pages_);
   find_quiet_pages_.set("quiet_change", static_cast<float>(kQuietChange));
   find_quiet_pages_.set("skip_quiet_pages", options_.skip_quiet_pages ? 1 : 0);
+  const RestRule rule = rest_rule(layout_.layout().voxels_per_page());
+  find_quiet_pages_.set("samples", static_cast<unsigned>(kMotionSamples));
+  find_quiet_pages_.set("window_time", static_cast<float>(rule.window_time));
+  find_quiet_pages_.set("windows_to_rest", static_cast<int>(rule.windows_to_rest));
+  find_quiet_pages_.set("rest_content", static_cast<float>(rule.rest_content));
+  find_quiet_pages_.set("least_near_voxels", static_cast<float>(kLeastNearVoxels));
   gpu::dispatch(memory_.control(), 0);
   gpu::finish_writes();
   order_new_window(now, true, false);
@@ -207,16 +213,14 @@ void ComputeExecutor::order_end_of_window(int now) {
 void ComputeExecutor::order_new_window(int now, bool judge_motion, bool wake_all) {
   check_convergence_.use();
   check_convergence_.set("judge_motion", judge_motion ? 1 : 0);
-  check_convergence_.set("samples", static_cast<unsigned>(kMotionSamples));
-  check_convergence_.set("time_step", static_cast<float>(time_step()));
-  check_convergence_.set("converged_speed", static_cast<float>(kConvergedSpeed));
-  check_convergence_.set("fastest_page_weight", static_cast<float>(kFastestPageWeight));
+  check_convergence_.set("restart", !judge_motion && !is_following() ? 1 : 0);
+  check_convergence_.set("windows_to_rest",
+                         static_cast<int>(rest_rule(layout_.layout().voxels_per_page()).windows_to_rest));
   gpu::dispatch(glm::ivec3(1));
   gpu::finish_writes();
   rebuild_.use();
   set_layout(rebuild_);
   rebuild_.set("wake_all", wake_all ? 1 : 0);
-  rebuild_.set("samples", static_cast<unsigned>(kMotionSamples));
   memory_.field().phi(now).bind_image(0, true);
   memory_.field().phi(1 - now).bind_image(1, true);
   constexpr std::int64_t kGroupsPerRow = 32768;  // as in page_memory.glsl
@@ -295,15 +299,6 @@ Status ComputeExecutor::activate_pages() {
   return {};
 }
 
-// As run_steps() of the other executors does before a step.
-Status ComputeExecutor::follow_surface() {
-  if (steps_in_window_ != 0 || !speed_->follows_surface()) return {};
-  auto speed = following_speed();
-  if (!speed) return pass_on(speed);
-  if (*speed == nullptr) return {};
-  return set_speed(std::move(*speed));
-}
-
 // Readies a run of at most so many steps; returns how many it may have. No page may wait inside of a run for
 // what the processor evaluates.
 Result<std::int64_t> ComputeExecutor::prepare_run(std::int64_t steps) {
@@ -339,6 +334,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
     report.voxel_updates +=
         static_cast<std::int64_t>(control->voxel_updates[1]) << 32 | control->voxel_updates[0];
     report.surface_speed = static_cast<double>(control->surface_speed);
+    report.moving_pages = control->moving_pages;
     report.converged = control->converged != 0;
     if (control->starved != 0) {
       if (auto status = activate_pages(); !status) {
@@ -385,6 +381,11 @@ Result<std::vector<std::int64_t>> ComputeExecutor::quiet_pages() const {
   std::vector<std::int64_t> pages = memory_.sleeping_pages();
   TIDEMARK_TRY(device_->check("reading which pages are quiet"));
   return pages;
+}
+
+Result<std::vector<std::int64_t>> ComputeExecutor::moving_pages() const {
+  TIDEMARK_TRY(device_->make_current());
+  return memory_.moving_pages(rest_rule(layout_.layout().voxels_per_page()).windows_to_rest);
 }
 
 bool ComputeExecutor::packed_view(PackedView& view) {

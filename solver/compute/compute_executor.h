@@ -29,6 +29,7 @@ class ComputeExecutor final : public GlExecutor {
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override;
+  [[nodiscard]] Result<std::vector<std::int64_t>> moving_pages() const override;
   bool packed_view(PackedView& view) override;
   [[nodiscard]] Status validate() const override;
 
@@ -60,7 +61,6 @@ class ComputeExecutor final : public GlExecutor {
   Status grow(std::int64_t more_pages);
   Status replace(const Field& phi) override;
   Status wake_all_pages() override;
-  Status follow_surface();
   Result<std::int64_t> prepare_run(std::int64_t steps);
   void order_sphere(const Sphere& sphere, Brush brush, bool only_count);
   void note_memory(const ComputeControl& control);

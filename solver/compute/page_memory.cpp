@@ -157,15 +157,27 @@ std::vector<std::int64_t> PageMemory::resident_pages() const {
   return pages;
 }
 
-std::vector<std::int64_t> PageMemory::sleeping_pages() const {
-  constexpr std::uint32_t kAsleep = 1;  // as in page_memory.glsl
+template <class Wanted>
+std::vector<std::int64_t> PageMemory::pages_where(Wanted wanted) const {
   const auto inverse = inverse_table_.download_values<std::int32_t>(0, capacity());
   const auto states = states_.download_values<ComputePageState>(0, capacity());
   std::vector<std::int64_t> pages;
   for (std::size_t page = kFirstPage; page < inverse.size(); ++page) {
-    if (inverse[page] >= 0 && (states[page].flags & kAsleep) != 0) pages.push_back(inverse[page]);
+    if (inverse[page] >= 0 && wanted(states[page])) pages.push_back(inverse[page]);
   }
   return pages;
+}
+
+std::vector<std::int64_t> PageMemory::sleeping_pages() const {
+  return pages_where([](const ComputePageState& page) { return page.is_asleep(); });
+}
+
+std::vector<std::int64_t> PageMemory::moving_pages(std::int32_t windows) const {
+  const ComputeControl control = read_control();
+  return pages_where([&](const ComputePageState& page) {
+    return !page.is_asleep() && page.moved >= control.first_window &&
+           control.window - 1 - page.moved < windows;
+  });
 }
 
 Status PageMemory::validate() const {

@@ -23,29 +23,36 @@ struct ComputeControl {
   std::uint32_t free_tail;
   std::uint32_t free_tail_ready;
   std::uint32_t voxel_updates[2];
-  std::uint32_t squared_change[3];
-  std::uint32_t near_voxels[2];
-  std::uint32_t quiet_near_voxels;
   std::uint32_t quiet_pages;
+  std::int32_t window;
+  std::int32_t first_window;
+  std::uint32_t moving_so_far;
+  float speed_so_far;
+  std::uint32_t moving_pages;
   float surface_speed;
   std::uint32_t step_ran;
   std::uint32_t list_is_rebuilt;
   std::uint32_t pages_wanted;
-  float fastest_page;
 
   [[nodiscard]] std::int64_t free_pages() const { return free_tail - free_head; }
 };
-static_assert(sizeof(ComputeControl) == 104);
+static_assert(sizeof(ComputeControl) == 96);
 
 struct ComputePageState {
   std::uint32_t flags;
   std::uint32_t code;
   std::uint32_t constant_steps;
+  std::uint32_t samples;
   std::uint32_t near_voxels;
   float change;
-  float squared_change;
+  float content;
+  float anchor;
+  std::int32_t since = -1;
+  std::int32_t moved = -1;
+
+  [[nodiscard]] bool is_asleep() const { return (flags & 1U) != 0; }
 };
-static_assert(sizeof(ComputePageState) == 24);
+static_assert(sizeof(ComputePageState) == 40);
 
 class PageMemory {
  public:
@@ -68,6 +75,8 @@ class PageMemory {
   // The virtual pages that are resident, and those of them that are quiet. Waits for the GPU.
   [[nodiscard]] std::vector<std::int64_t> resident_pages() const;
   [[nodiscard]] std::vector<std::int64_t> sleeping_pages() const;
+  // Those in which the surface moved in one of the last `windows` windows. Waits for the GPU.
+  [[nodiscard]] std::vector<std::int64_t> moving_pages(std::int32_t windows) const;
   [[nodiscard]] const gpu::Buffer& control() const { return control_; }
   [[nodiscard]] ComputeControl read_control() const;
   void write_control(const ComputeControl& control);
@@ -80,6 +89,8 @@ class PageMemory {
   [[nodiscard]] static std::int64_t bytes_for(const PackedLayout& layout, std::int64_t capacity);
 
  private:
+  template <class Wanted>
+  [[nodiscard]] std::vector<std::int64_t> pages_where(Wanted wanted) const;
   Status allocate_lists(gpu::Device& device, std::int64_t capacity, const std::vector<std::int32_t>& inverse,
                         const std::vector<ComputePageState>& states, const std::vector<std::int32_t>& active);
 

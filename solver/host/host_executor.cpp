@@ -157,11 +157,16 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const Pa
   masks.outside_first |= work.outside;
   masks.outside_last |= work.outside;
   masks.add_padding(info.padding);
+  result.content += 2.0F * constants_.near *
+                    static_cast<float>(std::popcount(work.inside & ~info.padding) * int{info.valid[0]});
   if (info.constraints != nullptr) limit(info, before, phi, masks, result);
 
   info.change += result.largest_change;
-  info.squared_change += result.squared_change;
-  info.near_voxels += result.near_voxels;
+  if (next_step_is_measured()) {
+    info.content += result.content;
+    info.near_voxels += result.near_voxels;
+    ++info.samples;
+  }
   std::uint8_t code = pages_.requests(page, next);
   if (info.change > kQuietChange && !info.woke_neighbours) code |= kMovedBit;
   codes_[index] = code;
@@ -240,7 +245,7 @@ Status HostExecutor::maintain() {
 
 // What moved so far no longer counts.
 void HostExecutor::begin_window() {
-  steps_in_window_ = 0;
+  restart_watch(kPageVoxels);
   quiet_.begin_window();
 }
 
@@ -248,9 +253,11 @@ void HostExecutor::begin_window() {
 // pages are quiet. Returns whether it did.
 bool HostExecutor::finish_window() {
   if (++steps_in_window_ < kConvergenceWindow) return false;
-  surface_speed_ = quiet_.motion().speed(model_.time_step());
+  quiet_.show(watch_);
+  watch_.end_window();
   quiet_.judge();
-  begin_window();
+  steps_in_window_ = 0;
+  quiet_.begin_window();
   return true;
 }
 

@@ -35,6 +35,9 @@ class HostExecutor final : public ExecutorBase {
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override {
     return quiet_.virtual_pages();
   }
+  [[nodiscard]] Result<std::vector<std::int64_t>> moving_pages() const override {
+    return quiet_.moving_pages(watch_);
+  }
   [[nodiscard]] bool page_view(PageView& view) const override;
   [[nodiscard]] Status validate() const override;
 

@@ -17,14 +17,15 @@ bool constrain(const Constraints::Page& constraints, float* phi) {
 
 void measure_again(const PageInfo& info, const float* before, const float* phi, float near,
                    PageResult& result) {
-  result.largest_change = result.squared_change = 0.0F;
+  result.largest_change = result.content = 0.0F;
   result.near_voxels = 0;
   for (int i = 0; i < kPageVoxels; ++i) {
     const bool padding = (info.padding >> (i / kPageSide) & 1U) != 0 || i % kPageSide >= info.valid[0];
-    if (padding || std::abs(phi[i]) > near) continue;
+    if (padding) continue;
+    result.content += std::clamp(phi[i], -near, near) + near;
+    if (std::abs(phi[i]) > near) continue;
     const float change = std::abs(phi[i] - before[i]);
     result.largest_change = std::max(result.largest_change, change);
-    result.squared_change += change * change;
     ++result.near_voxels;
   }
 }

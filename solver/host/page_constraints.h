@@ -8,7 +8,7 @@ namespace tidemark::solver {
 // Takes a page's values to their limits. Returns whether a value changed.
 bool constrain(const Constraints::Page& constraints, float* phi);
 
-// The motion of a page whose values were limited after its kernel had measured them: over all of its voxels.
+// The same measures of a page whose values were limited after its kernel had taken them: over all its voxels.
 // `before` is phi two steps ago.
 void measure_again(const PageInfo& info, const float* before, const float* phi, float near,
                    PageResult& result);

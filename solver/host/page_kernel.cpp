@@ -213,7 +213,8 @@ void update_page(const PageJob& job, PageResult& result) {
   }
 
   auto largest_change = hn::Zero(d);
-  auto squared_change = hn::Zero(d);
+  const auto near_here = hn::Set(d, job.constants->near);
+  auto content = hn::Zero(d);
   std::size_t near_voxels = 0;
   ConstantVoxels constant;
   // Bytes are written in the loop, which the compiler takes for changes of the job.
@@ -244,10 +245,12 @@ void update_page(const PageJob& job, PageResult& result) {
       }
       if constexpr (kMotion) {
         const std::size_t ends_in_padding = job.info->padding >> (row + rows_per_vector - 1) & 1U;
-        const auto near = hn::Le(hn::Abs(phi), hn::LoadU(d, near_limit[ends_in_padding] + x));
+        const auto limit = hn::LoadU(d, near_limit[ends_in_padding] + x);
+        const auto near = hn::Le(hn::Abs(phi), limit);
         const auto change = hn::IfThenElseZero(near, hn::Sub(phi, hn::LoadU(d, next + voxel)));
         largest_change = hn::Max(largest_change, hn::Abs(change));
-        squared_change = hn::MulAdd(change, change, squared_change);
+        const auto within = hn::Max(hn::Min(phi, near_here), hn::Neg(near_here));
+        content = hn::Add(content, hn::IfThenElseZero(hn::Eq(limit, near_here), hn::Add(within, near_here)));
         near_voxels += hn::CountTrue(d, near);
       }
       hn::StoreU(phi, d, next + voxel);
@@ -265,7 +268,7 @@ void update_page(const PageJob& job, PageResult& result) {
   result.masks.outside_first = rows_where(constant.outside, 0x01U) & job.rows;
   result.masks.outside_last = rows_where(constant.outside, last) & job.rows;
   result.largest_change = hn::GetLane(hn::MaxOfLanes(d, largest_change));
-  result.squared_change = hn::GetLane(hn::SumOfLanes(d, squared_change));
+  result.content = hn::GetLane(hn::SumOfLanes(d, content));
   result.near_voxels = static_cast<std::int32_t>(near_voxels);
 }
 

@@ -27,10 +27,10 @@ struct PageJob {
 
 struct PageResult {
   RowMasks masks;  // of the computed rows
-  // If motion is measured: over the computed voxels beside the surface (StepConstants::near), the change over
-  // two steps.
+  // If motion is measured, of the computed voxels: the largest change over two steps beside the surface
+  // (StepConstants::near), and a sample of PageContent.
   float largest_change = 0.0F;
-  float squared_change = 0.0F;
+  float content = 0.0F;
   std::int32_t near_voxels = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "solver/convergence.h"
 #include "solver/host/reserved_array.h"
 #include "solver/host/row_masks.h"
 #include "solver/paging/page_table.h"
@@ -17,15 +18,16 @@ struct PageInfo {
   PhysicalPage neighbours[kNeighbours];
   Rows padding = 0;  // rows beyond the volume
 
-  // Since the window began, over the voxels beside the surface (StepConstants::near): the sum of the
-  // largest changes, the sum of the squared changes, and the number of voxels.
+  // Since the window began: the sum of the largest changes beside the surface, and what PageContent says.
   float change = 0.0F;
-  float squared_change = 0.0F;
+  float content = 0.0F;
   std::int32_t near_voxels = 0;
+  PageRest rest;
 
   // How many voxels of the page are inside the volume, along each axis.
   std::uint8_t valid[3] = {kPageSide, kPageSide, kPageSide};
   std::uint8_t constant_steps = 0;  // for how many steps it has been constant
+  std::uint8_t samples = 0;         // of content and near_voxels
   bool asleep = false;              // quiet: not computed, both buffers are equal
   bool woke_neighbours = false;     // in this window
 

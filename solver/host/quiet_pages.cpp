@@ -26,7 +26,6 @@ void QuietPages::wake(PhysicalPage page) {
   if (!info.asleep) return;
   info.asleep = false;
   --count_;
-  info.near_voxels = 0;
   states_changed_ = true;
 }
 
@@ -48,8 +47,6 @@ void QuietPages::put_to_sleep(PhysicalPage page) {
   PageInfo& info = pool.info(page);
   info.asleep = true;
   ++count_;
-  // Its voxels belong to the surface, and they do not move.
-  info.near_voxels /= kMotionSamples;
   const int next = 1 - pages_.current();
   std::copy_n(pages_.phi(page), kPageVoxels, pool.phi(next, page));
   pool.masks(next, page) = pool.masks(pages_.current(), page);
@@ -70,14 +67,12 @@ bool QuietPages::surroundings_are_still(PhysicalPage page) const {
   return true;
 }
 
-SurfaceMotion QuietPages::motion() const {
-  SurfaceMotion motion;
-  motion.add_resting(near_voxels_ * kMotionSamples);
+void QuietPages::show(MotionWatch& watch) {
   for (const PhysicalPage page : active_) {
-    const PageInfo& info = pages_.pool().info(page);
-    motion.add_page(static_cast<double>(info.squared_change), info.near_voxels);
+    PageInfo& info = pages_.pool().info(page);
+    watch.add_page({static_cast<double>(info.content), static_cast<double>(info.near_voxels), info.samples},
+                   info.rest);
   }
-  return motion;
 }
 
 void QuietPages::judge() {
@@ -94,9 +89,10 @@ void QuietPages::judge() {
 void QuietPages::begin_window() {
   for (const PhysicalPage page : active_) {
     PageInfo& info = pages_.pool().info(page);
-    if (!info.asleep) info.near_voxels = 0;
     info.change = 0.0F;
-    info.squared_change = 0.0F;
+    info.content = 0.0F;
+    info.near_voxels = 0;
+    info.samples = 0;
     info.woke_neighbours = false;
   }
 }
@@ -105,14 +101,9 @@ void QuietPages::begin_window() {
 void QuietPages::refresh_active() {
   if (!active_list_is_stale()) return;
   active_.clear();
-  near_voxels_ = 0;
   pages_.for_each_in_order([&](PhysicalPage page) {
     const PageInfo& info = pages_.pool().info(page);
-    if (info.asleep) {
-      near_voxels_ += info.near_voxels;
-    } else {
-      active_.push_back(page);
-    }
+    if (!info.asleep) active_.push_back(page);
   });
   states_changed_ = false;
   seen_changes_ = pages_.table().changes();
@@ -122,6 +113,15 @@ std::vector<std::int64_t> QuietPages::virtual_pages() const {
   std::vector<std::int64_t> pages;
   pages_.for_each([&](PhysicalPage page) {
     if (pages_.pool().info(page).asleep) pages.push_back(pages_.table().virtual_page(page));
+  });
+  return pages;
+}
+
+std::vector<std::int64_t> QuietPages::moving_pages(const MotionWatch& watch) const {
+  std::vector<std::int64_t> pages;
+  pages_.for_each([&](PhysicalPage page) {
+    const PageInfo& info = pages_.pool().info(page);
+    if (!info.asleep && watch.is_moving(info.rest)) pages.push_back(pages_.table().virtual_page(page));
   });
   return pages;
 }

@@ -28,15 +28,16 @@ class QuietPages {
   void wake_around(PhysicalPage page);
   void wake_all();
 
-  // Of the window so far.
-  [[nodiscard]] SurfaceMotion motion() const;
+  // At the end of a window, before judge(): shows the watch what moved.
+  void show(MotionWatch& watch);
   // At the end of a window: puts pages to sleep.
   void judge();
-  // What moved so far no longer counts.
+  // The sums of a window begin.
   void begin_window();
 
   [[nodiscard]] std::int64_t count() const { return count_; }
   [[nodiscard]] std::vector<std::int64_t> virtual_pages() const;
+  [[nodiscard]] std::vector<std::int64_t> moving_pages(const MotionWatch& watch) const;
   [[nodiscard]] std::int64_t state_bytes() const;
   [[nodiscard]] Status validate() const;
 
@@ -55,7 +56,6 @@ class QuietPages {
   bool states_changed_ = true;      // pages fell asleep or woke since the active list was made
   std::int64_t seen_changes_ = -1;  // of the page table, when it was
   std::int64_t count_ = 0;
-  std::int64_t near_voxels_ = 0;  // in quiet pages, as last seen
 };
 
 }  // namespace tidemark::solver

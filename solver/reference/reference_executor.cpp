@@ -57,24 +57,42 @@ void ReferenceExecutor::constrain() {
 void ReferenceExecutor::set_values(std::vector<double> phi) {
   phi_ = std::move(phi);
   constrain();
-  previous_ = phi_;
   next_.resize(phi_.size());
   begin_window();
 }
 
 void ReferenceExecutor::begin_window() {
-  motion_.assign(static_cast<std::size_t>(layout_.page_count()), {});
-  steps_in_window_ = 0;
+  contents_.assign(static_cast<std::size_t>(layout_.page_count()), {});
+  rests_.resize(contents_.size());
+  restart_watch(layout_.voxels_per_page());
 }
 
 // Ends the window when this step does, and says whether it did.
 bool ReferenceExecutor::finish_window() {
   if (++steps_in_window_ < kConvergenceWindow) return false;
-  SurfaceMotion motion;
-  for (const PageMotion& page : motion_) motion.add_page(page.squared_change, page.voxels);
-  surface_speed_ = motion.speed(model_.time_step());
-  begin_window();
+  for (std::size_t page = 0; page < contents_.size(); ++page) {
+    contents_[page].samples = kMotionSamples;
+    watch_.add_page(contents_[page], rests_[page]);
+  }
+  watch_.end_window();
+  contents_.assign(contents_.size(), {});
+  steps_in_window_ = 0;
   return true;
+}
+
+// Adds a voxel to its page's sample.
+void ReferenceExecutor::measure(Index3 voxel, double phi, double near) {
+  PageContent& page = contents_[static_cast<std::size_t>(layout_.translate(voxel).page)];
+  page.content += std::clamp(phi, -near, near) + near;
+  if (std::abs(phi) <= near) page.near_voxels += 1.0;
+}
+
+Result<std::vector<std::int64_t>> ReferenceExecutor::moving_pages() const {
+  std::vector<std::int64_t> pages;
+  for (std::size_t page = 0; page < rests_.size(); ++page) {
+    if (watch_.is_moving(rests_[page])) pages.push_back(static_cast<std::int64_t>(page));
+  }
+  return pages;
 }
 
 Status ReferenceExecutor::restore(const Field& phi) {
@@ -106,7 +124,6 @@ Status ReferenceExecutor::paint(const Sphere& sphere, Brush brush) {
     }
   }
   constrain();
-  previous_ = phi_;
   begin_window();
   return {};
 }
@@ -159,16 +176,10 @@ void ReferenceExecutor::step() {
         }
         next_[i] =
             constrained({x, y, z}, HWY_NAMESPACE::updated_phi<kPaper, double>(d, data, update, advected));
-        if (is_measured && std::abs(next_[i]) <= constants.near) {
-          const double change = next_[i] - previous_[i];
-          PageMotion& page = motion_[static_cast<std::size_t>(layout_.translate({x, y, z}).page)];
-          page.squared_change += change * change;
-          ++page.voxels;
-        }
+        if (is_measured) measure({x, y, z}, next_[i], constants.near);
       }
     }
   }
-  previous_.swap(phi_);
   phi_.swap(next_);
 }
 
@@ -188,7 +199,7 @@ MemoryReport ReferenceExecutor::memory() const {
   MemoryReport report;
   report.resident_pages = report.peak_resident_pages = layout_.page_count();
   report.state_bytes = report.peak_state_bytes =
-      static_cast<std::int64_t>((phi_.size() + previous_.size() + next_.size()) * sizeof(double));
+      static_cast<std::int64_t>((phi_.size() + next_.size()) * sizeof(double));
   report.source_bytes = static_cast<std::int64_t>(speed_values_.size() * sizeof(double) +
                                                   advection_.size() * sizeof(glm::vec3));
   report.page_shape = layout_.page_shape();

@@ -4,14 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "solver/convergence.h"
 #include "solver/executor_base.h"
 
 namespace tidemark::solver {
 
 class ReferenceExecutor final : public ExecutorBase {
  public:
-  // It has no pages; where the fastest page counts (kFastestPageWeight) they have this shape.
+  // It has no pages; where motion is judged page by page they have this shape.
   ReferenceExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
                     Index3 page_shape = kDefaultPageShape);
 
@@ -25,6 +24,7 @@ class ReferenceExecutor final : public ExecutorBase {
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override { return {}; }
+  [[nodiscard]] Result<std::vector<std::int64_t>> moving_pages() const override;
   [[nodiscard]] Status validate() const override;
 
   // phi in voxel order, in full precision.
@@ -35,6 +35,7 @@ class ReferenceExecutor final : public ExecutorBase {
   template <bool kPaper>
   void step();
   void begin_window();
+  void measure(Index3 voxel, double phi, double near);
   Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
   void evaluate_speed();
   [[nodiscard]] double constrained(Index3 voxel, double phi) const;
@@ -45,14 +46,10 @@ class ReferenceExecutor final : public ExecutorBase {
   std::vector<double> speed_values_;  // D
   std::vector<glm::vec3> advection_;  // empty: there is none
   std::vector<double> phi_;
-  std::vector<double> previous_;  // of one step earlier
   std::vector<double> next_;
-  // Of each page in the window so far, as for SurfaceMotion.
-  struct PageMotion {
-    double squared_change = 0.0;
-    std::int64_t voxels = 0;
-  };
-  std::vector<PageMotion> motion_;
+  // By page.
+  std::vector<PageContent> contents_;  // of the window so far
+  std::vector<PageRest> rests_;
 };
 
 }  // namespace tidemark::solver

@@ -25,7 +25,8 @@ HWY_INLINE V one_sidedness(const Differences<V>& d) {
   return max(min(mul_add(d.lowest_product, V(Real(1.0 / kFullSignChange)), one), one), V(Real(0)));
 }
 
-// G_r = phi (g_phi - |grad phi|) alone, for pictures; a step has it in the weights of its gradients (update-inl.h).
+// G_r = phi (g_phi - |grad phi|) alone, for pictures; a step has it in the weights of its gradients
+// (update-inl.h).
 template <class Real, class V>
 HWY_INLINE V rescaling_speed(const Differences<V>& d, V target_gradient) {
   const V mean = d.phi * (d.upwind_growing + d.upwind_shrinking);

@@ -84,7 +84,7 @@ Status StreamExecutor::replace(const Field& phi) {
   infos_.assign(static_cast<std::size_t>(table_.capacity()), PageInfo());
   for (auto& pages_to_fill : new_) pages_to_fill.clear();
   current_ = 0;
-  steps_in_window_ = 0;
+  restart_watch(layout_.layout().voxels_per_page());
   active_list_is_stale_ = true;
   peak_resident_ = table_.resident();
   peak_bytes_ = with_textures(state_bytes(memory_.capacity()));
@@ -125,6 +125,7 @@ Status StreamExecutor::compile_for_drive() {
 
 Status StreamExecutor::wake_all_pages() {
   evaluated_changes_ = -1;
+  restart_watch(layout_.layout().voxels_per_page());
   begin_window();
   for_each_resident([&](PhysicalPage page) { wake(page); });
   peak_bytes_ = std::max(peak_bytes_, with_textures(state_bytes(memory_.capacity())));
@@ -202,6 +203,7 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
   std::sort(pages.begin(), pages.end());
   pages.erase(std::unique(pages.begin(), pages.end()), pages.end());
   active_list_is_stale_ = true;
+  restart_watch(layout_.layout().voxels_per_page());
   begin_window();
   TIDEMARK_TRY(activate_pages(needs_activation_ ? resident_pages() : std::move(pages)));
   return rebuild_active_list();

@@ -8,12 +8,12 @@
 
 namespace tidemark::solver {
 
-// The motion of a page in a window of steps, over its voxels beside the surface (StepConstants::near).
+// The motion of a page in a window of steps: a texel.
 struct PageMotion {
-  float change = 0.0F;          // the sum of the largest changes
-  float squared_change = 0.0F;  // the sum of the squared changes
+  float change = 0.0F;  // the sum of the largest changes beside the surface (StepConstants::near)
+  float content = 0.0F;
   float near_voxels = 0.0F;
-  float unused = 0.0F;  // a texel has four channels
+  float samples = 0.0F;  // of these two, as PageContent has them
 };
 
 class PhysicalMemory {

@@ -15,7 +15,6 @@ namespace tidemark::solver {
 void StreamExecutor::wake(PhysicalPage page) {
   if (!info(page).asleep) return;
   info(page).asleep = false;
-  info(page).near_voxels = 0;
   active_list_is_stale_ = true;
 }
 
@@ -30,7 +29,7 @@ void StreamExecutor::wake_around(PhysicalPage page) {
              });
 }
 
-// What moved so far no longer counts.
+// The sums of a window begin.
 void StreamExecutor::begin_window() {
   steps_in_window_ = 0;
   for (const PhysicalPage page : active_) info(page).woke_neighbours = false;
@@ -42,20 +41,19 @@ void StreamExecutor::begin_window() {
 // pages are quiet. Returns whether it did.
 Result<bool> StreamExecutor::finish_window() {
   if (++steps_in_window_ < kConvergenceWindow) return false;
-  SurfaceMotion motion;
-  motion.add_resting(quiet_near_voxels_ * kMotionSamples);
   if (!active_.empty()) {
     auto pages = memory_.read_motion();
     if (!pages) return pass_on(pages);
     for (const PhysicalPage page : active_) {
       const PageMotion& moved = (*pages)[static_cast<std::size_t>(page)];
-      motion.add_page(static_cast<double>(moved.squared_change),
-                      static_cast<std::int64_t>(moved.near_voxels));
+      const PageContent content{static_cast<double>(moved.content), static_cast<double>(moved.near_voxels),
+                                static_cast<int>(moved.samples)};
+      watch_.add_page(content, info(page).rest);
     }
     TIDEMARK_TRY(judge_quiet_pages(*pages));
   }
+  watch_.end_window();
   begin_window();
-  surface_speed_ = motion.speed(model_.time_step());
   return true;
 }
 
@@ -76,12 +74,7 @@ Status StreamExecutor::judge_quiet_pages(const std::vector<PageMotion>& motion) 
     }
   }
   if (quiet.empty()) return {};
-  for (const PhysicalPage page : quiet) {
-    info(page).asleep = true;
-    // Its voxels still belong to the surface, and they do not move.
-    info(page).near_voxels =
-        static_cast<std::int32_t>(motion[static_cast<std::size_t>(page)].near_voxels) / kMotionSamples;
-  }
+  for (const PhysicalPage page : quiet) info(page).asleep = true;
   active_list_is_stale_ = true;
   TIDEMARK_TRY(special_geometry_.describe(*device_, table_, quiet));
   passes_.copy(special_geometry_, memory_, current_);
@@ -96,14 +89,20 @@ Result<std::vector<std::int64_t>> StreamExecutor::quiet_pages() const {
   return pages;
 }
 
+Result<std::vector<std::int64_t>> StreamExecutor::moving_pages() const {
+  std::vector<std::int64_t> pages;
+  for_each_resident([&](PhysicalPage page) {
+    if (!info(page).asleep && watch_.is_moving(info(page).rest)) pages.push_back(table_.virtual_page(page));
+  });
+  return pages;
+}
+
 Status StreamExecutor::rebuild_active_list() {
   active_.clear();
   quiet_pages_ = 0;
-  quiet_near_voxels_ = 0;
   for_each_resident([&](PhysicalPage page) {
     if (info(page).asleep) {
       ++quiet_pages_;
-      quiet_near_voxels_ += info(page).near_voxels;
     } else {
       active_.push_back(page);
     }

@@ -32,6 +32,7 @@ class StreamExecutor final : public GlExecutor {
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
   [[nodiscard]] Result<std::vector<std::int64_t>> quiet_pages() const override;
+  [[nodiscard]] Result<std::vector<std::int64_t>> moving_pages() const override;
   bool packed_view(PackedView& view) override;
   // Of a function that follows the surface, the D in use.
   [[nodiscard]] Result<PassRecord> record_step(std::int64_t page) override;
@@ -47,7 +48,7 @@ class StreamExecutor final : public GlExecutor {
 
   // The facts kept beside a physical page.
   struct PageInfo {
-    std::int32_t near_voxels = 0;  // of a sleeping page, as last seen
+    PageRest rest;
     std::uint8_t constant_steps = 0;
     bool asleep = false;
     bool woke_neighbours = false;  // in this window
@@ -123,7 +124,6 @@ class StreamExecutor final : public GlExecutor {
   bool active_list_is_stale_ = true;
   bool needs_activation_ = false;  // the budget stopped an allocation
   std::int64_t quiet_pages_ = 0;
-  std::int64_t quiet_near_voxels_ = 0;
   std::int64_t evaluated_changes_ = -1;  // of the table, when D was evaluated around its pages
 
   gpu::Buffer viewed_table_;          // the page table as packed_view() gave it last

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 
 #include "executor_rows.h"
+#include "solver/convergence.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -42,6 +43,38 @@ struct CreepingFront {
   }
 
   Geometry geometry = grid({64, 40, 40});
+  solver::Parameters parameters;
+};
+
+double furthest_in_x(const solver::Executor& level_set) {
+  double furthest = 0.0;
+  for_each_crossing(level_set.snapshot().value(), [&](glm::dvec3 p) { furthest = std::max(furthest, p.x); });
+  return furthest;
+}
+
+// A ball that rests where its brightness ends, and a vessel of three voxels from its side that is a little
+// dimmer: curvature nearly holds the front in it.
+struct Vessel {
+  static constexpr double kBall = 56.0;  // where the vessel begins, along x
+  static constexpr double kEnd = 116.0;
+
+  Vessel() {
+    parameters.target = 1000.0;
+    parameters.range = 200.0;
+    parameters.alpha = 0.9;
+  }
+  [[nodiscard]] static double ball(glm::dvec3 p) { return 26.0 - glm::distance(p, glm::dvec3(30.0)); }
+  [[nodiscard]] std::shared_ptr<const Volume> source() const {
+    return volume_of(geometry, [](glm::dvec3 p) {
+      if (ball(p) >= 0.0) return 1000.0;
+      const bool in_vessel =
+          p.x > 50.0 && p.x <= kEnd && glm::distance(glm::dvec2(p.y, p.z), glm::dvec2(30.0)) < 1.5;
+      return in_vessel ? 900.0 : 0.0;
+    });
+  }
+  [[nodiscard]] static double start(glm::dvec3 p) { return ball(p); }
+
+  Geometry geometry = grid({128, 61, 61});
   solver::Parameters parameters;
 };
 
@@ -87,7 +120,10 @@ class ConvergenceTest : public QObject {
       QCOMPARE(failure(change()), QString());
       const solver::AdvanceReport report = run(*level_set, 100, true);
       QVERIFY(report.converged);
-      QCOMPARE(report.steps, std::int64_t{solver::kConvergenceWindow});
+      const int windows =
+          solver::RestRule::of(level_set->time_step(), scene.parameters.alpha, 1.0, 512).windows_to_rest + 1;
+      QCOMPARE(report.steps, std::int64_t{windows * solver::kConvergenceWindow});
+      QCOMPARE(report.moving_pages, std::int64_t{0});
     }
   }
 
@@ -121,18 +157,49 @@ class ConvergenceTest : public QObject {
     const auto level_set = setting.make(scene.source(), scene.parameters);
     set_phi(*level_set, scene.geometry, CreepingFront::start);
     run(*level_set, 4 * solver::kConvergenceWindow);
-    const auto tip = [&] {
-      double furthest = 0.0;
-      for_each_crossing(level_set->snapshot().value(),
-                        [&](glm::dvec3 p) { furthest = std::max(furthest, p.x); });
-      return furthest;
-    };
-    const double before = tip();
+    const double before = furthest_in_x(*level_set);
     const solver::AdvanceReport report = run(*level_set, 4 * solver::kConvergenceWindow, true);
-    qInfo("the tip goes from %.2f to %.2f, the surface's speed is %.4f", before, tip(), report.surface_speed);
+    qInfo("the tip goes from %.2f to %.2f, the surface's speed is %.4f", before, furthest_in_x(*level_set),
+          report.surface_speed);
     QVERIFY(!report.converged);
     QCOMPARE(report.steps, std::int64_t{4 * solver::kConvergenceWindow});
-    QVERIFY(tip() > before + 1.0);
+    QVERIFY(furthest_in_x(*level_set) > before + 1.0);
+  }
+
+  void a_creeping_front_goes_to_its_end_data() { add_rows_with_host(); }
+  void a_creeping_front_goes_to_its_end() {
+    const Setting setting = this_row();
+    const Vessel scene;
+    const auto level_set = setting.make(scene.source(), scene.parameters);
+    set_phi(*level_set, scene.geometry, Vessel::start);
+    // While it is on its way, the pages that move are those of the vessel.
+    QVERIFY(!run(*level_set, 1500, true).converged);
+    const double on_its_way = furthest_in_x(*level_set);
+    QVERIFY2(on_its_way > Vessel::kBall + 2.0 && on_its_way < Vessel::kEnd - 10.0,
+             qPrintable(QString::number(on_its_way)));
+    const auto moving = level_set->moving_pages().value();
+    QVERIFY(!moving.empty() && moving.size() <= 16);
+    const solver::PageLayout layout(scene.geometry.size, level_set->memory().page_shape);
+    for (const std::int64_t page : moving) {
+      const Index3 first = layout.page_coordinates(page) * layout.page_shape();
+      QVERIFY2(first.x + layout.page_shape().x > Vessel::kBall,
+               qPrintable(QString("page at %1").arg(first.x)));
+    }
+
+    const solver::AdvanceReport report = run(*level_set, 20000, true);
+    const double end = furthest_in_x(*level_set);
+    qInfo("%lld steps to rest, %g s, the tip at %.2f then %.2f", static_cast<long long>(1500 + report.steps),
+          report.seconds, on_its_way, end);
+    QVERIFY(report.converged);
+    QVERIFY2(end > Vessel::kEnd - 2.0, qPrintable(QString::number(end)));
+    QVERIFY(level_set->moving_pages().value().empty());
+
+    const auto host = executor(solver::ExecutorKind::host, scene.source(), scene.parameters);
+    set_phi(*host, scene.geometry, Vessel::start);
+    const auto steps_of_host = static_cast<double>(run(*host, 20000, true).steps);
+    const auto steps = static_cast<double>(1500 + report.steps);
+    QVERIFY2(std::abs(steps - steps_of_host) <= 0.05 * steps_of_host,
+             qPrintable(QString("%1 steps, host %2").arg(steps).arg(steps_of_host)));
   }
 
   void motion_is_measured_alike_at_any_spacing_data() { add_rows_with_host(); }
@@ -148,10 +215,11 @@ class ConvergenceTest : public QObject {
         const double band = level_set->band();
         set_phi(*level_set, scene.geometry,
                 [&](glm::dvec3 mm) { return scene.is_inside(mm) ? -band : band; });
-        speed[i++] = run(*level_set, solver::kConvergenceWindow).surface_speed;
+        // Against the first window.
+        speed[i++] = run(*level_set, 2 * solver::kConvergenceWindow).surface_speed;
       }
       qInfo("%g x %g x %g mm: speed %.5g and %.5g", spacing.x, spacing.y, spacing.z, speed[0], speed[1]);
-      QVERIFY(std::abs(speed[0] - speed[1]) < 1e-3 * speed[1]);
+      QVERIFY(speed[1] > 0.0 && std::abs(speed[0] - speed[1]) < 1e-3 * speed[1]);
     }
   }
 

@@ -11,9 +11,13 @@ struct PageState {
   uint flags;
   uint code;            // of its newest phi, kCode* below
   uint constant_steps;  // for how many maintenances it has been constant
-  uint near_voxels;     // summed over the samples of a window: voxels beside the surface
+  uint samples;         // of a window, in near_voxels and content (solver/convergence.h, PageContent)
+  uint near_voxels;
   float change;         // the sum of the largest changes beside the surface since the window began
-  float squared_change; // the sum of the squared changes
+  float content;
+  float anchor;         // as PageRest has them
+  int since;
+  int moved;
 };
 layout(std430, binding = 2) coherent buffer PageStates { PageState page_state[]; };
 
@@ -29,15 +33,16 @@ layout(std430, binding = 3) coherent buffer Control {
   uint free_tail;
   uint free_tail_ready; // entries before this were there when the dispatch began
   uvec2 voxel_updates;  // 64 bits, low word first
-  uint squared_change[3]; // of the window, 96 bits in units of 2^-24, low word first
-  uint near_voxels[2];    // of the window, active pages: 64 bits, low word first
-  uint quiet_near_voxels; // in quiet pages, of one step
   uint quiet_pages;
+  int window;             // the present one, and the first that counts
+  int first_window;
+  uint moving_so_far;     // of the pages that were judged at the window's end
+  uint speed_so_far;      // a float's bits
+  uint moving_pages;      // in the last full window
   float surface_speed;
   uint step_ran;          // 0 when the run has ended before this step
   uint list_is_rebuilt;   // 0 when the window's end is not to be judged
   uint pages_wanted;      // that a sphere needs
-  uint fastest_page;      // the largest mean squared change of a page in the window, a float's bits
 } control;
 
 layout(std430, binding = 4) coherent buffer ActiveList { int active_list[]; };
@@ -76,11 +81,16 @@ void add_to_active_list(int page) {
   atomicMax(control.active_groups.y, index / kGroupsPerRow + 1u);
 }
 
+void begin_samples(int page) {
+  page_state[page].samples = 0u;
+  page_state[page].near_voxels = 0u;
+  page_state[page].change = 0.0;
+  page_state[page].content = 0.0;
+}
+
 void wake(int page) {
   uint old = atomicAnd(page_state[page].flags, ~kAsleep);
-  if ((old & kAsleep) == 0u) return;
-  page_state[page].near_voxels = 0u;
-  add_to_active_list(page);
+  if ((old & kAsleep) != 0u) add_to_active_list(page);
 }
 
 // Makes a page of V_P that is not resident resident; its voxels are the caller's to write. Returns the physical page,
@@ -100,9 +110,8 @@ int make_resident(int number, int constant) {
   // Until its first step it counts as a page that cannot be given back.
   page_state[page].code = kNotInside | kNotOutside | (constant == kInsidePage ? 63u << 6 : 63u);
   page_state[page].constant_steps = 0u;
-  page_state[page].near_voxels = 0u;
-  page_state[page].change = 0.0;
-  page_state[page].squared_change = 0.0;
+  begin_samples(page);
+  page_state[page].since = page_state[page].moved = -1;
   add_to_active_list(page);
   atomicExchange(page_table[number], page);
   return page;

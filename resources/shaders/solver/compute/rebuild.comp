@@ -8,7 +8,6 @@ layout(local_size_x = 64) in;
 layout(binding = 0, r32f) uniform restrict image2D phi_now;
 layout(binding = 1, r32f) uniform restrict image2D phi_other;
 uniform bool wake_all;
-uniform uint samples;  // of motion in a window
 
 shared bool falls_asleep;
 
@@ -25,19 +24,12 @@ void main() {
     uint flags = page_state[page].flags;
     bool asleep = (flags & kAsleep) != 0u && !wake_all;
     falls_asleep = (flags & kFallsAsleep) != 0u && !wake_all;
-    page_state[page].change = 0.0;
-    page_state[page].squared_change = 0.0;
-    if (falls_asleep) {
-      // Its voxels still belong to the surface, and they do not move.
-      page_state[page].near_voxels /= samples;
-    }
+    begin_samples(page);
     if (asleep || falls_asleep) {
       page_state[page].flags = kAsleep;
       atomicAdd(control.quiet_pages, 1u);
-      atomicAdd(control.quiet_near_voxels, page_state[page].near_voxels);
     } else {
       page_state[page].flags = 0u;
-      page_state[page].near_voxels = 0u;
       add_to_active_list(page);
     }
   }

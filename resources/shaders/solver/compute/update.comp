@@ -16,13 +16,13 @@ uniform float near;  // |phi| of a voxel beside the surface is at most this
 
 shared uint group_code;
 shared uint group_largest_change;
-shared float squared_changes[PAGE_X * (PAGE_Y / BLOCK)];  // of each invocation
+shared float contents[PAGE_X * (PAGE_Y / BLOCK)];  // of each invocation
 shared uint group_near_voxels;
 
 // Of the invocation.
 uint code = 0u;
 float largest_change = 0.0;
-float squared_change = 0.0;
+float content = 0.0;
 uint near_voxels = 0u;
 
 // The stencil of column `i` of the block.
@@ -47,7 +47,7 @@ void note(float phi, float phi_before, ivec3 local) {
   bool counts = in_volume && abs(phi) <= near;
   float change = counts ? abs(phi - phi_before) : 0.0;
   largest_change = max(largest_change, change);
-  squared_change += change * change;
+  content += in_volume ? clamp(phi, -near, near) + near : 0.0;
   near_voxels += uint(counts);
 }
 
@@ -114,7 +114,7 @@ void main() {
   atomicOr(group_code, code);
   if (measure_motion) {
     atomicMax(group_largest_change, floatBitsToUint(largest_change));
-    squared_changes[gl_LocalInvocationIndex] = squared_change;
+    contents[gl_LocalInvocationIndex] = content;
     atomicAdd(group_near_voxels, near_voxels);
   }
   barrier();
@@ -130,10 +130,11 @@ void main() {
 #ifndef MEASURE_ONLY
   if (measure_motion) {
     page_state[page].change += uintBitsToFloat(group_largest_change);
-    float sum = 0.0;  // in the same order every time, and with room for changes of any size
-    for (int i = 0; i < squared_changes.length(); ++i) sum += squared_changes[i];
-    page_state[page].squared_change += sum;
+    float sum = 0.0;  // in the same order every time
+    for (int i = 0; i < contents.length(); ++i) sum += contents[i];
+    page_state[page].content += sum;
     page_state[page].near_voxels += group_near_voxels;
+    ++page_state[page].samples;
   }
   uint voxels = uint((last.x + 1) * (last.y + 1) * (last.z + 1));
   uint old = atomicAdd(control.voxel_updates.x, voxels);

@@ -1,5 +1,5 @@
-// Motion over two steps, first half: 16 voxels to one texel. Largest and squared change, and how many voxels there are,
-// beside the surface.
+// A sample of a page's motion, first half: 16 voxels to one texel. The largest change over two steps beside the surface,
+// the content, and how many voxels are beside the surface (solver/convergence.h).
 
 #include "solver/stream/coordinates.glsl"
 
@@ -21,9 +21,12 @@ void main() {
       ivec2 at = ivec2(x, y);
       vec2 here = vec2(4 * block + at) + 0.5;
       float phi = textureLod(phi_next, here * phi_texel + to_phi, 0.0).r;
-      if (abs(phi) > near || any(greaterThanEqual(first + at, valid_texels))) continue;
+      if (any(greaterThanEqual(first + at, valid_texels))) continue;
+      motion.y += clamp(phi, -near, near) + near;
+      if (abs(phi) > near) continue;
       float change = abs(phi - textureLod(central_buffer, here * place_texel, 0.0).w);
-      motion = vec4(max(motion.x, change), motion.y + change * change, motion.z + 1.0, 0.0);
+      motion.x = max(motion.x, change);
+      motion.z += 1.0;
     }
   }
 }
