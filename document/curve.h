@@ -12,7 +12,7 @@ struct CurvePoint {
   std::int64_t step = 0;
   double volume_ml = 0.0;
   double surface_mm2 = 0.0;
-  double surface_speed = 0.0;  // root mean square, smallest spacings per unit of time (kConvergedSpeed)
+  double surface_speed = 0.0;  // AdvanceReport::surface_speed, smallest spacings a unit of time
   std::optional<double> dice = std::nullopt;  // against a known answer
 
   bool operator==(const CurvePoint&) const = default;

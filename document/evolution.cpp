@@ -6,6 +6,7 @@
 
 #include "document/checksum.h"
 #include "document/executor_setup.h"
+#include "solver/surface_places.h"
 
 namespace tidemark::document {
 
@@ -80,6 +81,11 @@ Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> vol
   auto phi = setup->executor().snapshot();
   if (!phi) return pass_on(phi);
   result.phi = std::move(*phi);
+  auto moving = setup->executor().moving_pages();
+  if (!moving) return pass_on(moving);
+  constexpr double kFarApartMm = 1e6;  // one place will do
+  const auto places = solver::surface_places_in(result.phi, *moving, kFarApartMm);
+  if (!places.empty()) result.moves_at = places.front();
   result.executor = setup->description();
   result.memory = setup->executor().memory();
   result.band = setup->executor().band();

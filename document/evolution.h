@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ struct Evolution {
   RecipeExecutor executor;
   std::vector<CoarseRun> coarse_runs;  // before that; empty: none
   solver::AdvanceReport advance;
+  std::optional<glm::dvec3> moves_at;  // a place on the surface that still moved at the end, in voxels
   solver::MemoryReport memory;
   double band = 0.0;
   double time_step = 0.0;

@@ -20,6 +20,7 @@ void add(const solver::AdvanceReport& run, solver::AdvanceReport& total) {
   total.paging_seconds += run.paging_seconds;
   total.voxel_updates += run.voxel_updates;
   total.surface_speed = run.surface_speed;
+  total.moving_pages = run.moving_pages;
 }
 
 }  // namespace

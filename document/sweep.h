@@ -32,8 +32,8 @@ Result<SweepStart> sweep_start(const Recipe& recipe, std::shared_ptr<const Volum
                                const Progress& progress = {});
 
 struct SweepOptions {
-  std::vector<SweepAxis> axes;  // one or two
-  std::int64_t steps = 5000;    // of a run, at most
+  std::vector<SweepAxis> axes;                    // one or two
+  std::int64_t steps = solver::kMostStepsToRest;  // of a run, at most
   bool until_converged = true;
   std::shared_ptr<const InsideBits> truth;                             // null: none
   int threads = 0;                                                     // 0: all processors of this process

@@ -45,8 +45,8 @@ ExplainedPlace explained(const solver::StepInputs& inputs, glm::dvec3 voxel) {
 std::optional<solver::StepInputs> step_inputs(const CaseState& state) {
   if (!state.begun || !state.phi || !state.source || state.time_step <= 0.0) return std::nullopt;
   if (state.phi->geometry.size != state.source->geometry.size) return std::nullopt;
-  return solver::StepInputs{state.phi,   state.source,      state.parameters,
-                            state.speed, state.constraints, state.time_step};
+  return solver::StepInputs{state.phi,         state.source,    state.parameters,  state.speed,
+                            state.constraints, state.time_step, state.moving_pages};
 }
 
 bool ExplainedPlace::rests() const {

@@ -43,7 +43,10 @@ Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, boo
   const auto began = Clock::now();
   const auto phi = read_phi();
   if (!phi) return pass_on(phi);
+  auto moving = document.level_set().executor().moving_pages();
+  if (!moving) return pass_on(moving);
   phi_ = *phi;
+  moving_pages_ = std::make_shared<const std::vector<std::int64_t>>(std::move(*moving));
   surface_ = tidemark::solver::measure(*phi_);
   if (overlap_) dice_ = overlap_->dice(*phi_);
   const auto ended = Clock::now();
@@ -80,6 +83,7 @@ void CaseMeter::report(CaseState& state) const {
   state.outcome = outcome_;
   state.wider_range = wider_range_;
   state.phi = phi_;
+  state.moving_pages = moving_pages_;
   state.surface = surface_;
   state.dice = dice_;
   state.inside = inside_;

@@ -60,6 +60,7 @@ class CaseMeter {
   Clock::time_point due_at_;
   bool thorough_ = false;
   std::shared_ptr<const solver::Field> phi_;
+  std::shared_ptr<const std::vector<std::int64_t>> moving_pages_;
   solver::SurfaceStatistics surface_;
   document::RegionStatistics inside_;
   std::vector<document::RegionStatistics> labels_;

@@ -80,8 +80,8 @@ Result<solver::AdvanceReport> LeakWatch::advance(document::LevelSet& level_set, 
     all.paging_seconds += part->paging_seconds;
     all.voxel_updates += part->voxel_updates;
     all.surface_speed = part->surface_speed;
-    // No window of its measure may have ended in this part.
-    all.converged = (all.converged || part->converged) && part->surface_speed < solver::kConvergedSpeed;
+    all.moving_pages = part->moving_pages;
+    all.converged = part->converged;
     if (part->steps < *steps || (part->converged && run.until_converged)) break;
     TIDEMARK_TRY(look(level_set));
   }

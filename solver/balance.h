@@ -36,6 +36,8 @@ struct StepInputs {
   std::shared_ptr<const SpeedFunction> speed;      // null: the tent of the parameters
   std::shared_ptr<const Constraints> constraints;  // null: none
   double time_step = 0.0;                          // Executor::time_step()
+  // Executor::moving_pages(), numbers of phi's layout; null: not known.
+  std::shared_ptr<const std::vector<std::int64_t>> moving_pages = nullptr;
 
   bool operator==(const StepInputs&) const = default;
 };
@@ -77,8 +79,9 @@ class PlaceBalance {
   std::vector<Corner> corners_;
 };
 
-// The place on the surface where the pushes' sum is largest by size, in voxel coordinates; the surface is
-// looked at every smallest spacing and a half. None without a surface.
+// The place on the surface where the pushes' sum is largest by size, in voxel coordinates: in the pages that
+// move, else on the whole surface, where a voxel that only flickers may win. The surface is looked at every
+// smallest spacing and a half. None without a surface.
 [[nodiscard]] std::optional<glm::dvec3> fastest_place(const StepInputs& inputs,
                                                       const std::stop_token& stop = {});
 

@@ -32,6 +32,9 @@ struct Advance {
   Progress progress = {};        // fraction = steps done / steps; cancelling keeps what was computed
 };
 
+// By default a run until the surface has stopped ends after so many steps all the same.
+inline constexpr std::int64_t kMostStepsToRest = 20000;
+
 // The surface has stopped when no page of it moves (solver/convergence.h). A page moves when its volume
 // inside, a mean over kConvergenceWindow steps, has changed by more than this part of the page (1 voxel of
 // 8^3) within the time below. Only what goes on in one direction counts: voxels that flicker do not. After a
@@ -50,7 +53,7 @@ inline constexpr float kQuietChange = 1e-3F;
 // The cost of a run of steps.
 struct AdvanceReport {
   std::int64_t steps = 0;
-  bool converged = false;
+  bool converged = false;       // as of the last full window
   double seconds = 0.0;         // wall time in the solver
   double paging_seconds = 0.0;  // of these, allocation, freeing and lists (compute: see time_paging)
   std::int64_t voxel_updates =

@@ -74,11 +74,9 @@ Result<AdvanceReport> ExecutorBase::run_steps(const Advance& run,
       run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
       since_report.restart();
     }
-    if (*window_ended) {
-      report.converged = watch_.rests();
-      if (report.converged && run.until_converged) break;
-    }
+    if (*window_ended && watch_.rests() && run.until_converged) break;
   }
+  report.converged = watch_.rests();
   report.surface_speed = watch_.speed();
   report.moving_pages = watch_.moving_pages();
   report.seconds = whole.seconds();

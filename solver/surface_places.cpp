@@ -167,4 +167,16 @@ std::vector<glm::dvec3> surface_places(const Field& phi, const std::optional<Pla
   return std::move(thinned.places);
 }
 
+std::vector<glm::dvec3> surface_places_in(const Field& phi, std::span<const std::int64_t> pages,
+                                          double apart_mm, const std::stop_token& stop) {
+  Thinned thinned(apart_mm);
+  const auto add = [&](glm::dvec3 place) { thinned.add(place, phi.geometry.to_patient(place)); };
+  for (const std::int64_t page : pages) {
+    if (stop.stop_requested()) break;
+    // One that has become constant since has no surface.
+    if (phi.table[static_cast<std::size_t>(page)] >= 0) for_each_crossing(phi, page, add);
+  }
+  return std::move(thinned.places);
+}
+
 }  // namespace tidemark::solver

@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -34,5 +35,9 @@ struct PlaneSlab {
 // Places on the surface, about that far apart; without a slab on all of it.
 [[nodiscard]] std::vector<glm::dvec3> surface_places(const Field& phi, const std::optional<PlaneSlab>& slab,
                                                      double apart_mm, const std::stop_token& stop = {});
+
+// The same in pages of those numbers.
+[[nodiscard]] std::vector<glm::dvec3> surface_places_in(const Field& phi, std::span<const std::int64_t> pages,
+                                                        double apart_mm, const std::stop_token& stop = {});
 
 }  // namespace tidemark::solver

@@ -31,7 +31,6 @@ constexpr const char* kExamples =
 
 constexpr std::int64_t kDefaultSteps = 100;
 constexpr std::int64_t kDefaultSize = 128;
-constexpr std::int64_t kMostSteps = 5000;  // to convergence
 
 struct BenchOptions {
   std::string kind = "tumour";
@@ -161,7 +160,7 @@ Result<std::vector<Stage>> measure_stages(solver::Executor& solver, std::int64_t
   TIDEMARK_TRY(solver.advance({}));
   for (const Plan& plan :
        {Plan{"early", steps, false}, Plan{"middle", steps, false}, Plan{"late", steps, false},
-        Plan{"to convergence", kMostSteps, true}, Plan{kConverged, steps, false}}) {
+        Plan{"to convergence", solver::kMostStepsToRest, true}, Plan{kConverged, steps, false}}) {
     if (plan.name == kConverged) {
       TIDEMARK_TRY(let_rest(solver));
     }

@@ -163,6 +163,8 @@ Json to_json(const RunFigures& figures) {
   object["outcome"] = document::name_of(figures.outcome);
   object["wider_range"] = figures.wider_range ? Json(*figures.wider_range) : Json();
   object["surface_speed"] = advance.surface_speed;
+  object["moving_pages"] = advance.moving_pages;
+  if (const auto& place = figures.moves_at) object["moves_at"] = {place->x, place->y, place->z};
   object["time_step"] = figures.time_step;
   object["volume_ml"] = figures.surface.volume_ml;
   object["surface_mm2"] = figures.surface.surface_mm2;

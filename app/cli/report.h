@@ -1,6 +1,7 @@
 // The figures of a run, for people and for programs.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,7 @@ struct RunFigures {
   solver::AdvanceReport advance;
   document::Outcome outcome = document::Outcome::unfinished;
   std::optional<double> wider_range;
+  std::optional<glm::dvec3> moves_at;  // a place on the surface that still moved, in voxels
   solver::MemoryReport memory;
   solver::SurfaceStatistics surface;
   std::optional<double> dice;                             // against a truth

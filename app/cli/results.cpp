@@ -63,6 +63,7 @@ void RunResults::take(document::Evolution evolution) {
   figures.surface = evolution.surface;
   figures.outcome = evolution.outcome;
   figures.wider_range = evolution.wider_range;
+  figures.moves_at = evolution.moves_at;
   recipe.executor = std::move(evolution.executor);
   recipe.steps = evolution.advance.steps;
   source = std::move(evolution.source);

@@ -107,8 +107,12 @@ void Segmentation::say_warnings() {
     console_.warn("too small for coarser levels: the surface began on the volume's own grid");
   }
   if (options_.until_converged() && !figures.advance.converged) {
-    console_.warn(
-        fmt::format("the surface was still moving after {} steps (--max-steps)", figures.advance.steps));
+    std::string where;
+    if (const auto& place = figures.moves_at) {
+      where = fmt::format(", at voxel {:.0f},{:.0f},{:.0f} for one", place->x, place->y, place->z);
+    }
+    console_.warn(fmt::format("the surface was still moving after {} steps (--max-steps){}",
+                              figures.advance.steps, where));
   }
 }
 

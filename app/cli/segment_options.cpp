@@ -3,7 +3,6 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr std::int64_t kDefaultMostSteps = 5000;
 constexpr std::int64_t kMostSteps = 1'000'000'000;
 
 void add_equation_options(CLI::App& app, SegmentOptions& options) {
@@ -39,7 +38,8 @@ void add_run_options(CLI::App& app, SegmentOptions& options) {
   add_count(app, "--steps", options.steps, "Compute exactly N steps (0: just the start)");
   app.add_flag("--converge", options.converge, "Compute until the surface has stopped moving (default)");
   add_count(app, "--max-steps", options.max_steps,
-            "With --converge: stop after N steps at the latest (default: 5000)");
+            fmt::format("With --converge: stop after N steps at the latest (default: {})",
+                        solver::kMostStepsToRest));
 }
 
 void add_comparison_options(CLI::App& app, SegmentOptions& options) {
@@ -108,7 +108,7 @@ void add_common_options(CLI::App& app, SegmentOptions& options) {
 }  // namespace
 
 std::int64_t SegmentOptions::step_limit() const {
-  return steps.value_or(max_steps.value_or(kDefaultMostSteps));
+  return steps.value_or(max_steps.value_or(solver::kMostStepsToRest));
 }
 
 solver::Parameters SegmentOptions::parameters() const {

@@ -235,6 +235,7 @@ void ComputeExecutor::begin_window(bool wake_all) {
   memory_.bind();
   order_new_window(current_, false, wake_all);
   steps_in_window_ = 0;
+  if (!is_following()) rests_ = false;
 }
 
 // Orders `count` steps and waits for them.
@@ -327,6 +328,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
     if (!prepared) return pass_on(prepared);
     const std::int64_t count = *prepared;
     const Stopwatch one_run;
+    const std::int32_t window = control_.window;
     auto control = run_steps(count, run.until_converged);
     if (!control) return pass_on(control);
     report.steps += control->steps_done;
@@ -335,7 +337,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
         static_cast<std::int64_t>(control->voxel_updates[1]) << 32 | control->voxel_updates[0];
     report.surface_speed = static_cast<double>(control->surface_speed);
     report.moving_pages = control->moving_pages;
-    report.converged = control->converged != 0;
+    if (control->window != window) rests_ = control->converged != 0;
     if (control->starved != 0) {
       if (auto status = activate_pages(); !status) {
         return fail(status.error().kind, "after {} steps: {}", report.steps, status.error().message);
@@ -349,8 +351,9 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
                      std::int64_t{1}, std::min(kMostStepsPerRun, 2 * steps_per_run_));
     }
     run.progress(static_cast<double>(report.steps) / static_cast<double>(run.steps), "steps");
-    if (report.converged && run.until_converged) break;
+    if (control->converged != 0 && run.until_converged) break;
   }
+  report.converged = rests_;
   report.seconds = whole.seconds();
   report.paging_seconds = std::exchange(paging_seconds_, 0.0);
   return report;

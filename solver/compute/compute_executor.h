@@ -72,6 +72,7 @@ class ComputeExecutor final : public GlExecutor {
 
   int current_ = 0;                // the buffer that holds phi
   bool needs_activation_ = false;  // the budget stopped an allocation
+  bool rests_ = false;             // as of the last full window
   std::int64_t steps_per_run_ = 1;
   double seconds_per_step_ = 0.0;  // as last measured
   double paging_seconds_ = 0.0;    // since the last report

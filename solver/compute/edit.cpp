@@ -16,6 +16,7 @@ Status ComputeExecutor::replace(const Field& phi) {
   memory_ = std::move(*memory);
   current_ = 0;
   steps_in_window_ = 0;
+  rests_ = false;
   peak_resident_ = peak_bytes_ = 0;
   return activate_pages();
 }

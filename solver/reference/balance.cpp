@@ -183,9 +183,14 @@ std::optional<double> PlaceBalance::range_for(double sum) const {
 std::optional<glm::dvec3> fastest_place(const StepInputs& inputs, const std::stop_token& stop) {
   const glm::dvec3 spacing = inputs.phi->geometry.spacing_mm;
   const double apart_mm = 1.5 * std::min({spacing.x, spacing.y, spacing.z});
+  std::vector<glm::dvec3> places;
+  if (inputs.moving_pages != nullptr) {
+    places = surface_places_in(*inputs.phi, *inputs.moving_pages, apart_mm, stop);
+  }
+  if (places.empty()) places = surface_places(*inputs.phi, std::nullopt, apart_mm, stop);
   std::optional<glm::dvec3> fastest;
   double most = -1.0;
-  for (const glm::dvec3& place : surface_places(*inputs.phi, std::nullopt, apart_mm, stop)) {
+  for (const glm::dvec3& place : places) {
     if (stop.stop_requested()) return std::nullopt;
     const double moves = std::abs(PlaceBalance(inputs, place).balance().pushes.sum());
     if (moves <= most) continue;

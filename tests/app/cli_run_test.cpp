@@ -98,6 +98,7 @@ void CliRunTest::stats_hold_what_the_contract_names() {
                           "quiet_pages",
                           "paging_seconds",
                           "surface_speed",
+                          "moving_pages",
                           "time_step",
                           "parameters",
                           "bytes_per_resident_voxel",
@@ -120,6 +121,9 @@ void CliRunTest::what_has_become_of_the_surface_is_said_data() {
   QTest::newRow("unfinished") << QStringList{"--steps", "5"} << "unfinished"
                               << "not converged"
                               << "";
+  QTest::newRow("still moving") << QStringList{"--max-steps", "64"} << "unfinished"
+                                << "not converged"
+                                << "still moving after 64 steps (--max-steps), at voxel";
   QTest::newRow("vanished") << QStringList{"--alpha", "0"} << "vanished"
                             << "vanished"
                             << "--range or --alpha";

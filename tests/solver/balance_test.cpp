@@ -103,6 +103,30 @@ class BalanceTest : public QObject {
     }
   }
 
+  void where_it_moves_most_is_in_a_page_that_moves() {
+    // A ball that grows everywhere.
+    const Geometry geometry = grid(Index3(40));
+    const glm::dvec3 centre = centre_of(geometry);
+    const auto source = volume_of(geometry, [](glm::dvec3 p) { return p.x > 20.0 ? 100.0 : 60.0; });
+    solver::Parameters parameters;
+    parameters.target = 100.0;
+    parameters.range = 50.0;
+    parameters.alpha = 0.9;
+    const auto level_set = executor(solver::ExecutorKind::host, source, parameters);
+    QCOMPARE(failure(level_set->paint({centre, 9.0}, solver::Brush::add)), QString());
+    run(*level_set, 1);
+    solver::StepInputs inputs = inputs_of(*level_set, source);
+    QVERIFY(solver::fastest_place(inputs)->x > 20.0);
+    const Index3 slow(12, 16, 16);
+    const std::int64_t page = inputs.phi->layout.translate(slow).page;
+    inputs.moving_pages = std::make_shared<const std::vector<std::int64_t>>(1, page);
+    const glm::dvec3 place = solver::fastest_place(inputs).value();
+    QCOMPARE(inputs.phi->layout.translate(Index3(place)).page, page);
+    // A page without a surface says nothing.
+    inputs.moving_pages = std::make_shared<const std::vector<std::int64_t>>(1, 0);
+    QVERIFY(solver::fastest_place(inputs)->x > 20.0);
+  }
+
   void advection_is_a_part_of_the_sum() {
     const Geometry geometry = grid(Index3(40));
     const glm::dvec3 centre = centre_of(geometry);

@@ -40,9 +40,9 @@ EvolutionCurves::EvolutionCurves(QWidget* parent)
   dice_ = new CurvePlot(tr("Dice"), QString(), false);
   dice_->setToolTip(tr("How well the surface agrees with the phantom's true shape, over the steps."));
   motion_->set_mark(solver::kConvergedSpeed,
-                    tr("How fast the surface moves, on a logarithmic scale: 1 is a front "
-                       "that the data drives as fast as can be. Below the dashed line (%1) it "
-                       "counts as converged.")
+                    tr("How fast the surface moves where it moves most, on a logarithmic scale: 1 is a front "
+                       "that the data drives as fast as can be. It has converged when it has stayed "
+                       "near the dashed line (%1) or below it for a while, everywhere.")
                         .arg(number_text(solver::kConvergedSpeed, 2)));
   for (CurvePlot* plot : {volume_, area_, motion_, dice_}) form.wide(plot);
   dice_->hide();  // until there is a phantom
