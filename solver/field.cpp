@@ -99,29 +99,35 @@ Field Field::from_dense(const Geometry& geometry, std::span<const float> values,
                         Index3 page_shape) {
   Field field = empty(geometry, band, page_shape);
   const auto limit = static_cast<float>(band);
-  const std::int64_t page_voxels = field.layout.voxels_per_page();
-  std::vector<float> page_values(static_cast<std::size_t>(page_voxels), -limit);
+  std::vector<float> page_values(static_cast<std::size_t>(field.layout.voxels_per_page()), -limit);
   for (std::int64_t page = 0; page < field.layout.page_count(); ++page) {
-    bool inside = true;
-    bool outside = true;
-    for_each_row(
-        geometry, field.layout, page, [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
-          for (std::int64_t i = 0; i < length; ++i) {
-            const float phi = std::clamp(values[static_cast<std::size_t>(offset + i)], -limit, limit);
-            inside = inside && phi == limit;
-            outside = outside && phi == -limit;
-            page_values[static_cast<std::size_t>(index + i)] = phi;
-          }
-        });
-    std::int32_t& entry = field.table[static_cast<std::size_t>(page)];
-    if (inside) {
-      entry = kInside;
-    } else if (!outside) {
-      entry = static_cast<std::int32_t>(field.resident_pages());
-      field.pages.insert(field.pages.end(), page_values.begin(), page_values.end());
-    }
+    for_each_row(geometry, field.layout, page,
+                 [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+                   const float* row = values.data() + offset;
+                   std::transform(row, row + length, page_values.data() + index,
+                                  [limit](float phi) { return std::clamp(phi, -limit, limit); });
+                 });
+    field.store_page(page, page_values);
   }
   return field;
+}
+
+void Field::store_page(std::int64_t page, std::span<const float> values) {
+  const auto limit = static_cast<float>(band);
+  bool inside = true;
+  bool outside = true;
+  for_each_row(geometry, layout, page, [&](std::int64_t, std::int64_t length, std::int64_t index) {
+    const float* row = values.data() + index;
+    inside = inside && std::all_of(row, row + length, [limit](float phi) { return phi == limit; });
+    outside = outside && std::all_of(row, row + length, [limit](float phi) { return phi == -limit; });
+  });
+  std::int32_t& entry = table[static_cast<std::size_t>(page)];
+  if (inside || outside) {
+    entry = inside ? kInside : kOutside;
+    return;
+  }
+  entry = static_cast<std::int32_t>(resident_pages());
+  pages.insert(pages.end(), values.begin(), values.end());
 }
 
 }  // namespace tidemark::solver
