@@ -11,6 +11,11 @@ namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
+// The rows never overlap, which lets compilers make vectors of them.
+void lower(float* __restrict to, const float* __restrict from, float cost, std::int64_t length) {
+  for (std::int64_t x = 0; x < length; ++x) to[x] = std::min(to[x], from[x] + cost);
+}
+
 }  // namespace
 
 BandReach::BandReach(const Geometry& geometry, double band) {
@@ -83,20 +88,17 @@ void BoxDistances::least_along_row(const std::uint8_t* voxels, std::uint8_t want
     return costs[steps];
   };
   const std::int64_t end = before_.x + size_.x;
-  for (std::int64_t x = 0; x < end; ++x) {
-    const float cost = next(x);
-    if (x >= before_.x) to[x - before_.x] = cost;
-  }
+  for (std::int64_t x = 0; x < before_.x; ++x) next(x);
+  for (std::int64_t x = before_.x; x < end; ++x) to[x - before_.x] = next(x);
   steps = none;
-  for (std::int64_t x = around_.x - 1; x >= before_.x; --x) {
-    const float cost = next(x);
-    if (x < end) to[x - before_.x] = std::min(to[x - before_.x], cost);
+  for (std::int64_t x = around_.x - 1; x >= end; --x) next(x);
+  for (std::int64_t x = end - 1; x >= before_.x; --x) {
+    to[x - before_.x] = std::min(to[x - before_.x], next(x));
   }
 }
 
 // Rows of `from` cover the surroundings along the axis and those after it; rows of `to` the box along it.
 void BoxDistances::least_along(int axis, const Rows& from, Rows& to) const {
-  const std::vector<float>& costs = reach_.costs[static_cast<std::size_t>(axis)];
   const std::int64_t reach = reach_.voxels[axis];
   const std::int64_t stride = axis == 1 ? 1 : size_.y;    // between neighbours along the axis
   const std::int64_t planes = axis == 1 ? around_.z : 1;  // sets of rows that do not meet
@@ -107,25 +109,29 @@ void BoxDistances::least_along(int axis, const Rows& from, Rows& to) const {
     for (std::int64_t place = before_[axis]; place < before_[axis] + size_[axis]; ++place) {
       const std::int64_t low = std::max<std::int64_t>(place - reach, 0);
       const std::int64_t high = std::min(place + reach, length - 1);
-      for (std::int64_t side_by_side = 0; side_by_side < stride; ++side_by_side, ++made) {
-        float* const result = to.row(made);
-        bool reached = false;
-        for (std::int64_t other = low; other <= high; ++other) {
-          const std::int64_t source = (plane * length + other) * stride + side_by_side;
-          if (from.reached[static_cast<std::size_t>(source)] == 0) continue;
-          const float cost = costs[static_cast<std::size_t>(std::abs(other - place))];
-          const float* const values = from.row(source);
-          if (!reached) {
-            for (std::int64_t x = 0; x < size_.x; ++x) result[x] = values[x] + cost;
-          } else {
-            for (std::int64_t x = 0; x < size_.x; ++x) result[x] = std::min(result[x], values[x] + cost);
-          }
-          reached = true;
-        }
-        to.reached[static_cast<std::size_t>(made)] = reached;
+      for (std::int64_t beside = 0; beside < stride; ++beside, ++made) {
+        const std::int64_t first = (plane * length + low) * stride + beside;
+        to.take_least(made, from, first, stride, &reach_.costs[static_cast<std::size_t>(axis)][0],
+                      low - place, high - place);
       }
     }
   }
+}
+
+// The least of rows of `from`, of which the first is `low` steps away, the last `high`.
+void BoxDistances::Rows::take_least(std::int64_t number, const Rows& from, std::int64_t first,
+                                    std::int64_t stride, const float* costs, std::int64_t low,
+                                    std::int64_t high) {
+  float* const to = row(number);
+  std::fill_n(to, width, kInfinite);
+  bool any = false;
+  for (std::int64_t steps = low; steps <= high; ++steps) {
+    const std::int64_t source = first + (steps - low) * stride;
+    if (from.reached[static_cast<std::size_t>(source)] == 0) continue;
+    any = true;
+    lower(to, from.row(source), costs[std::abs(steps)], width / kLanes * kLanes);
+  }
+  reached[static_cast<std::size_t>(number)] = any;
 }
 
 // Each voxel has its distance to the nearest one of the other side.

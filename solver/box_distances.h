@@ -33,16 +33,21 @@ class BoxDistances {
 
  private:
   enum class Side : std::uint8_t { outside, inside };
-  // Rows along x with the width of the box, and which of them hold anything that is not infinite. The others
-  // hold anything.
+  // Rows along x as wide as the box, or a little wider, and which of them hold anything that is not infinite.
+  // The others hold anything.
   struct Rows {
+    static constexpr std::int64_t kLanes = 8;  // the width is a multiple of it: rows are computed in vectors
+
     void make_room(std::int64_t length, std::int64_t rows) {
-      width = length;
-      values.resize(static_cast<std::size_t>(length * rows));
+      width = (length + kLanes - 1) / kLanes * kLanes;
+      values.resize(static_cast<std::size_t>(width * rows));
       reached.resize(static_cast<std::size_t>(rows));
     }
     [[nodiscard]] float* row(std::int64_t number) { return values.data() + number * width; }
     [[nodiscard]] const float* row(std::int64_t number) const { return values.data() + number * width; }
+
+    void take_least(std::int64_t number, const Rows& from, std::int64_t first, std::int64_t stride,
+                    const float* costs, std::int64_t low, std::int64_t high);
 
     std::int64_t width = 0;
     std::vector<float> values;
