@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/out_of_memory.h"
 #include "core/thread_pool.h"
 #include "solver/box_distances.h"
 
@@ -89,7 +90,9 @@ class PageDistances {
                               rounded_up(reach_.voxels, layout_.page_shape()));
     // Only what is used of it becomes memory; growing would copy all pages.
     const auto nearby = std::count(near_.begin(), near_.end(), kHoldsBoth);
-    phi_.pages.reserve(static_cast<std::size_t>(nearby * layout_.voxels_per_page()));
+    const std::int64_t values = nearby * layout_.voxels_per_page();
+    asking_for(values * std::int64_t{sizeof(float)},
+               [&] { phi_.pages.reserve(static_cast<std::size_t>(values)); });
     for (std::int64_t layer = 0; layer < layout_.pages().z; layer += block_.z) make_layer(layer);
   }
 

@@ -2,9 +2,19 @@
 
 #include <algorithm>
 
+#include "core/out_of_memory.h"
 #include "solver/paging/page_rows.h"
 
 namespace tidemark::solver {
+namespace {
+
+template <class Value>
+std::vector<Value> zeros(std::int64_t count) {
+  return asking_for(count * static_cast<std::int64_t>(sizeof(Value)),
+                    [&] { return std::vector<Value>(static_cast<std::size_t>(count)); });
+}
+
+}  // namespace
 
 float Field::at(Index3 voxel) const {
   const VirtualAddress address = layout.translate(voxel);
@@ -44,7 +54,7 @@ Status Field::check_fits(const Geometry& grid, double wanted_band) const {
 }
 
 std::vector<float> Field::dense() const {
-  std::vector<float> values(static_cast<std::size_t>(geometry.voxel_count()));
+  std::vector<float> values = zeros<float>(geometry.voxel_count());
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     const std::int32_t entry = table[static_cast<std::size_t>(page)];
     const float constant = static_cast<float>(entry == kInside ? band : -band);
@@ -69,7 +79,7 @@ Volume Field::to_volume() const {
 }
 
 Mask Field::mask() const {
-  Mask result{geometry, std::vector<std::uint8_t>(static_cast<std::size_t>(geometry.voxel_count()))};
+  Mask result{geometry, zeros<std::uint8_t>(geometry.voxel_count())};
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     const std::int32_t entry = table[static_cast<std::size_t>(page)];
     if (entry == kOutside) continue;
