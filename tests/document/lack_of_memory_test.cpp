@@ -11,8 +11,8 @@
 
 #include "cases.h"
 #include "core/without_exceptions.h"
+#include "document/segment_meshes.h"
 #include "document/session_contents.h"
-#include "imaging/surface/surface.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -148,7 +148,7 @@ std::map<std::string, Row> rows() {
                  [](Case& document) -> Status {
                    const auto phi = document.level_set().checkpoint();
                    if (!phi) return pass_on(phi);
-                   const auto mesh = imaging::extract_surface((*phi)->to_volume());
+                   const auto mesh = document::mesh_of(**phi);
                    if (!mesh) return pass_on(mesh);
                    return {};
                  },
