@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
+
+#include "core/out_of_memory.h"
 
 namespace tidemark {
 
@@ -14,7 +17,7 @@ void prefer_large_pages(void* memory, std::size_t bytes);
 template <class Value>
 [[nodiscard]] std::vector<Value> make_large_vector(std::size_t count) {
   std::vector<Value> values;
-  values.reserve(count);
+  asking_for(static_cast<std::int64_t>(count * sizeof(Value)), [&] { values.reserve(count); });
   prefer_large_pages(values.data(), count * sizeof(Value));
   values.resize(count);
   return values;

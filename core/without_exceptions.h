@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 
+#include "core/out_of_memory.h"
 #include "core/result.h"
 
 namespace tidemark {
@@ -13,8 +14,8 @@ template <class Work>
 auto without_exceptions(const Work& work) -> decltype(work()) {
   try {
     return work();
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "there is not enough memory");
+  } catch (const std::bad_alloc& error) {
+    return out_of_memory(error);
   } catch (const std::exception& error) {
     return fail(ErrorKind::internal, "{}", error.what());
   }

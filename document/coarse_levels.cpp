@@ -22,7 +22,7 @@ class CoarseLevels {
   Result<std::optional<CoarseStart>> run();
 
  private:
-  Status find_mask();
+  Status find_inside();
   Result<std::unique_ptr<solver::Executor>> make_executor(const solver::CoarseGrid& grid) const;
   Result<bool> begin(solver::Executor& executor, const solver::CoarseGrid& grid);
   Status come_to_rest(solver::Executor& executor, const solver::CoarseGrid& grid, int level);
@@ -30,12 +30,12 @@ class CoarseLevels {
   const Start& start_;
   const CoarseInputs& inputs_;
   const Progress& progress_;
-  std::shared_ptr<const Mask> mask_;  // of the start's first part, on the volume's grid; null: none
+  std::optional<Inside> inside_;  // by the start's first part, on the volume's grid
   CoarseStart result_;
 };
 
 Result<std::optional<CoarseStart>> CoarseLevels::run() {
-  TIDEMARK_TRY(find_mask());
+  TIDEMARK_TRY(find_inside());
   for (int halvings = start_.levels - 1; halvings > 0; --halvings) {
     const solver::CoarseGrid grid(inputs_.source.geometry, halvings);
     auto executor = make_executor(grid);
@@ -53,14 +53,14 @@ Result<std::optional<CoarseStart>> CoarseLevels::run() {
   return std::move(result_);
 }
 
-Status CoarseLevels::find_mask() {
+Status CoarseLevels::find_inside() {
   if (std::holds_alternative<FieldStart>(start_.from)) {
     return fail(ErrorKind::usage, "a saved level set goes on as it is: it has no coarser levels");
   }
   TIDEMARK_TRY(check_spheres(start_, inputs_.source.geometry));
-  auto mask = mask_of(start_, inputs_.source);
-  if (!mask) return pass_on(mask);
-  mask_ = std::move(*mask);
+  auto inside = inside_of(start_, inputs_.source);
+  if (!inside) return pass_on(inside);
+  inside_ = std::move(*inside);
   return {};
 }
 
@@ -87,9 +87,9 @@ Result<bool> CoarseLevels::begin(solver::Executor& executor, const solver::Coars
   Start coarse;
   coarse.seeds = start_.seeds;
   coarse.erasers = start_.erasers;
-  if (mask_ != nullptr) {
-    coarse.from = MaskStart{std::make_shared<const Mask>(solver::coarsened(*mask_, grid)), {}};
-    mask_.reset();
+  if (inside_) {
+    coarse.from = MaskStart{std::make_shared<const Mask>(solver::coarsened(*inside_, grid)), {}};
+    inside_.reset();
   }
   const Volume volume{grid.coarse(), {}};
   auto phi = place(executor, volume, coarse, progress_);

@@ -25,7 +25,7 @@ bool same_page(const solver::Field& a, const solver::Field& b, std::int64_t page
 const solver::Field& with_pages(const solver::Field& field, const solver::PageLayout& layout,
                                 std::optional<solver::Field>& made) {
   if (field.layout == layout) return field;
-  made = solver::Field::from_dense(field.geometry, field.dense(), field.band, layout.page_shape());
+  made = field.repaged(field.band, layout.page_shape());
   return *made;
 }
 

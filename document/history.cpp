@@ -80,10 +80,12 @@ void History::add(ChangeDescription description, std::unique_ptr<Change> change,
   node.description = std::move(description);
   node.change = std::move(change);
   node.steering = steering ? *std::move(steering) : parent.steering;
+  // All that may lack memory comes first: a state is there with both of its links or not at all.
+  parent.children.reserve(parent.children.size() + 1);
+  nodes_.emplace(last_id_ + 1, std::move(node));
   present_ = ++last_id_;
   parent.children.push_back(present_);
   parent.next = present_;
-  nodes_.emplace(present_, std::move(node));
   ++edits_;
   keep_below_limit();
 }
@@ -114,7 +116,13 @@ void History::open(OpenChange& change) {
 
 Status History::close() {
   if (open_ == nullptr) return {};
-  return std::exchange(open_, nullptr)->close();
+  OpenChange& change = *std::exchange(open_, nullptr);
+  try {
+    return change.close();
+  } catch (...) {
+    open_ = &change;  // it lacked memory, and can be closed later
+    throw;
+  }
 }
 
 // Ways.

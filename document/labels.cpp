@@ -88,18 +88,22 @@ Status Labels::change(ChangeKind kind, const std::string& name, Touches what,
     TIDEMARK_TRY(history_->close());
   }
   std::vector<Label> list_before = list_;
-  std::vector<Run> runs;
-  if (what == Touches::list) {
+  std::vector<std::uint8_t> voxels_before;
+  if (what == Touches::voxels) voxels_before = voxels_;
+  try {
     edit();
-  } else {
-    const std::vector<std::uint8_t> voxels_before = voxels_;
-    edit();
-    runs = changed_runs(voxels_before, voxels_);
-    ++revision_;
-  }
-  if (history_ != nullptr) {
-    history_->add({kind, 0, name},
-                  std::make_unique<LabelsChange>(*this, std::move(list_before), std::move(runs)));
+    std::vector<Run> runs;
+    if (what == Touches::voxels) {
+      runs = changed_runs(voxels_before, voxels_);
+      ++revision_;
+    }
+    if (history_ != nullptr) {
+      history_->add({kind, 0, name}, std::make_unique<LabelsChange>(*this, list_before, std::move(runs)));
+    }
+  } catch (...) {  // without memory for an entry of the history there is no change
+    list_ = std::move(list_before);
+    if (what == Touches::voxels) voxels_ = std::move(voxels_before);
+    throw;
   }
   return {};
 }

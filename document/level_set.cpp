@@ -80,17 +80,27 @@ std::int64_t LevelSet::bytes() const {
 
 Status LevelSet::close() {
   const Status known = read_back_phi();
-  const ChangeKind kind = description().kind;
-  const Open ended = *std::exchange(open_, std::nullopt);
-  if (!known) return known;
-  if (ended.before.same_as(known_)) return {};
-  if (!ended.last_edit) {
-    add_entry(kind, ended.before, known_);
-  } else {
-    add_entry(kind, ended.before, *ended.last_edit);
-    add_entry(ChangeKind::evolution, *ended.last_edit, known_);
+  if (known && !open_->before.same_as(known_)) {
+    // The change stays open, as far as it has no entry yet, if there is no memory for one.
+    if (open_->last_edit) {
+      add_entry(description().kind, open_->before, *open_->last_edit);
+      open_ = Open{ChangeKind::evolution, 0, *std::move(open_->last_edit), std::nullopt};
+    }
+    add_entry(description().kind, open_->before, known_);
   }
-  return {};
+  open_.reset();
+  return known;
+}
+
+// An entry from that point to the present one. Without memory for it the present point is that one, as it is
+// for the history.
+void LevelSet::enter(ChangeKind kind, Point before) {
+  try {
+    add_entry(kind, before, known_);
+  } catch (...) {
+    known_ = std::move(before);
+    throw;
+  }
 }
 
 void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& after) {
@@ -142,7 +152,8 @@ void LevelSet::record(RecipeEvent event) {
 
 Status LevelSet::read_back_phi() {
   if (!dirty_) {
-    known_.recipe = recipe_;
+    Recipe recipe = recipe_;
+    known_.recipe = std::move(recipe);
     known_.start = start_;
     known_.curve = curve_;
     known_.drive = drive_;
@@ -174,7 +185,7 @@ Status LevelSet::begin(const Start& start, const Progress& progress) {
     TIDEMARK_TRY(go_to(known_));
     return pass_on(phi);
   }
-  const Point before = known_;
+  Point before = known_;
   Point point{{}, std::make_shared<const solver::Field>(std::move(*phi)), nullptr};
   point.recipe.source = recipe_.source;
   point.recipe.executor = setup_.description();
@@ -185,7 +196,7 @@ Status LevelSet::begin(const Start& start, const Progress& progress) {
   point.drive = drive_;
   point.recipe.drive = setup_.drive();
   put_in_place(std::move(point));
-  add_entry(ChangeKind::start, before, known_);
+  enter(ChangeKind::start, std::move(before));
   return {};
 }
 
@@ -230,12 +241,14 @@ Result<solver::AdvanceReport> LevelSet::advance(const solver::Advance& run) {
 }
 
 void LevelSet::put_in_place(Point point) {
-  recipe_ = point.recipe;
+  Point copy = point;  // whatever may lack memory comes first: nothing is in place by half
+  Recipe recipe = point.recipe;
+  recipe_ = std::move(recipe);
   start_ = point.start;
   curve_ = point.curve;
   drive_ = point.drive;
   known_ = std::move(point);
-  in_place_ = known_;
+  in_place_ = std::move(copy);
   dirty_ = false;
   resumed_ = false;
   on_its_way_ = false;
@@ -312,15 +325,16 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
   TIDEMARK_TRY(history_.close());
   const std::int64_t target = step() - std::clamp<std::int64_t>(steps, 0, step());
   if (target == step()) return {};
-  const Point before = known_;
-  TIDEMARK_TRY(keep(compute_again(target, progress), recipe_.up_to(target), ChangeKind::step_back, before));
+  Point before = known_;
+  TIDEMARK_TRY(
+      keep(compute_again(target, progress), recipe_.up_to(target), ChangeKind::step_back, std::move(before)));
   if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_, {}, drive_};
   return {};
 }
 
 // The executor has computed the recipe from its start or from in_place_: an entry after `before`. Where it
 // has not, the level set is at `before` again.
-Status LevelSet::keep(Status computed, Recipe recipe, ChangeKind kind, const Point& before) {
+Status LevelSet::keep(Status computed, Recipe recipe, ChangeKind kind, Point before) {
   if (computed) {
     recipe_ = std::move(recipe);
     recipe_.executor = setup_.description();
@@ -331,10 +345,10 @@ Status LevelSet::keep(Status computed, Recipe recipe, ChangeKind kind, const Poi
     computed = read_back_phi();
   }
   if (!computed) {
-    TIDEMARK_TRY(go_to(before));
+    TIDEMARK_TRY(go_to(std::move(before)));
     return computed;
   }
-  add_entry(kind, before, known_);
+  enter(kind, std::move(before));
   return {};
 }
 
@@ -365,11 +379,11 @@ void LevelSet::settle_start(Recipe& start) const {
 Status LevelSet::restart() {
   TIDEMARK_TRY(history_.close());
   if (step() == 0) return {};
-  const Point before = known_;
+  Point before = known_;
   auto point = start_point();
   if (!point) return pass_on(point);
   TIDEMARK_TRY(go_to(std::move(*point)));
-  add_entry(ChangeKind::restart, before, known_);
+  enter(ChangeKind::restart, std::move(before));
   return {};
 }
 

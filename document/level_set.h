@@ -158,6 +158,7 @@ class LevelSet final : private OpenChange {
   Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed, Entry entry);
   void append(RecipeEvent event);
   void add_entry(ChangeKind kind, const Point& before, const Point& after);
+  void enter(ChangeKind kind, Point before);
   Status read_back_phi();
   void put_in_place(Point point);
   void pass(Point point);
@@ -171,7 +172,7 @@ class LevelSet final : private OpenChange {
   Result<solver::Field> start_with(const solver::Parameters& parameters);
   void take_drive_of_recipe();
   Status compute_again(std::int64_t target, const Progress& progress);
-  Status keep(Status computed, Recipe recipe, ChangeKind kind, const Point& before);
+  Status keep(Status computed, Recipe recipe, ChangeKind kind, Point before);
 
   ExecutorSetup setup_;
   History& history_;

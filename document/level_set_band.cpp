@@ -24,7 +24,7 @@ Result<solver::Field> LevelSet::start_with(const solver::Parameters& parameters)
 
 Status LevelSet::begin_again_with(const solver::Parameters& parameters) {
   TIDEMARK_TRY(history_.close());
-  const Point before = known_;
+  Point before = known_;
   Point point{recipe_.up_to(0), nullptr, nullptr, {}, drive_};
   settle_start(point.recipe);
   point.recipe.parameters = parameters;
@@ -36,7 +36,7 @@ Status LevelSet::begin_again_with(const solver::Parameters& parameters) {
   }
   point.phi = point.start = std::make_shared<const solver::Field>(std::move(*phi));
   TIDEMARK_TRY(go_to(std::move(point)));
-  add_entry(ChangeKind::parameters, before, known_);
+  enter(ChangeKind::parameters, std::move(before));
   return {};
 }
 

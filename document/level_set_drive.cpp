@@ -81,7 +81,7 @@ Status LevelSet::set_source(std::shared_ptr<const Volume> source, double sigma_m
                             std::shared_ptr<const solver::SpeedFunction> speed) {
   TIDEMARK_TRY(history_.close());
   TIDEMARK_TRY(setup_.set_source(std::move(source), sigma_mm, speed));
-  const Point before = known_;
+  Point before = known_;
   if (begun()) {
     record({step(), SmoothEvent{sigma_mm}});
   } else {
@@ -89,7 +89,7 @@ Status LevelSet::set_source(std::shared_ptr<const Volume> source, double sigma_m
   }
   TIDEMARK_TRY(read_back_phi());
   in_place_ = known_;
-  add_entry(ChangeKind::source, before, known_);
+  enter(ChangeKind::source, std::move(before));
   return speed == nullptr ? Status() : set_speed(std::move(speed));
 }
 

@@ -61,11 +61,19 @@ double surface_band(const Geometry& geometry) {
   return std::max(2.5, 2.0 * std::max({h.x, h.y, h.z}) / std::min({h.x, h.y, h.z}));
 }
 
+Result<imaging::Mesh> mesh_of(const solver::Field& phi) {
+  constexpr Index3 kShape(imaging::PhiPages::kSide);
+  if (phi.layout.page_shape() != kShape) return mesh_of(phi.repaged(phi.band, kShape));
+  static_assert(imaging::PhiPages::kInside == solver::Field::kInside);
+  return imaging::extract_surface(
+      imaging::PhiPages{phi.geometry, phi.table, phi.pages, static_cast<float>(phi.band)});
+}
+
 Result<imaging::Mesh> mesh_of(const Mask& mask) {
   const double band = surface_band(mask.geometry);
   const glm::dvec3 h = mask.geometry.spacing_mm;
   const glm::dvec3 reach = glm::ceil(band * std::min({h.x, h.y, h.z}) / h) + 2.0;
-  return imaging::extract_surface(solver::distance_transform(part_of(mask, Index3(reach)), band).to_volume());
+  return mesh_of(solver::distance_transform(part_of(mask, Index3(reach)), band));
 }
 
 Result<imaging::Mesh> mesh_of(const Geometry& geometry, const imaging::Segment& segment) {

@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "imaging/results/segments.h"
 #include "imaging/surface/surface.h"
+#include "solver/field.h"
 
 namespace tidemark::document {
 
@@ -14,6 +15,8 @@ namespace tidemark::document {
 // thickest voxels. In smallest voxels.
 [[nodiscard]] double surface_band(const Geometry& geometry);
 
+// The surface of a level set. Fails as extract_surface() does.
+Result<imaging::Mesh> mesh_of(const solver::Field& phi);
 // The surface of a mask. Fails as extract_surface() does.
 Result<imaging::Mesh> mesh_of(const Mask& mask);
 // Between the voxels where the segment has a level set.

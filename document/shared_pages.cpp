@@ -14,8 +14,7 @@ SharedPages::SharedPages(const Geometry& geometry, double band, Index3 page_shap
 
 void SharedPages::add(const solver::Field& phi, std::size_t like) {
   if (!(phi.layout == empty_.layout)) {
-    const Index3 shape = empty_.layout.page_shape();
-    return add(solver::Field::from_dense(phi.geometry, phi.dense(), phi.band, shape), like);
+    return add(phi.repaged(phi.band, empty_.layout.page_shape()), like);
   }
   const std::vector<float> values = pages_for_file(phi);
   const std::int64_t voxels = phi.layout.voxels_per_page();

@@ -58,26 +58,26 @@ Status check_sphere(const solver::Sphere& sphere, const Geometry& grid, const ch
               what, voxel.x, voxel.y, voxel.z, sphere.radius_mm, grid.size.x, grid.size.y, grid.size.z);
 }
 
-// The first part as a mask.
-struct FirstMask {
+// What is inside by the first part.
+struct FirstInside {
   const Volume& source;
 
-  using Shared = std::shared_ptr<const Mask>;
+  using Found = Result<std::optional<Inside>>;
 
-  Result<Shared> operator()(std::monostate) const { return nullptr; }
-  Result<Shared> operator()(const ThresholdStart& start) const {
-    return std::make_shared<const Mask>(imaging::threshold(source, start.low, start.high));
+  Found operator()(std::monostate) const { return std::nullopt; }
+  Found operator()(const ThresholdStart& start) const {
+    return imaging::between(source, start.low, start.high);
   }
-  Result<Shared> operator()(const FloodStart& start) const {
-    auto mask = imaging::flood_fill(source, start.voxel, start.low, start.high);
-    if (!mask) return pass_on(mask);
-    return std::make_shared<const Mask>(std::move(*mask));
+  Found operator()(const FloodStart& start) const {
+    auto region = imaging::flood_fill(source, start.voxel, start.low, start.high);
+    if (!region) return pass_on(region);
+    return tidemark::inside_of(std::make_shared<const BitMask>(std::move(*region)));
   }
-  Result<Shared> operator()(const MaskStart& start) const {
+  Found operator()(const MaskStart& start) const {
     TIDEMARK_TRY(check_grid(start.mask->geometry, source.geometry, "mask"));
-    return start.mask;
+    return tidemark::inside_of(start.mask);
   }
-  Result<Shared> operator()(const FieldStart&) const { return nullptr; }
+  Found operator()(const FieldStart&) const { return std::nullopt; }
 };
 
 // The first part as phi.
@@ -85,22 +85,24 @@ Result<solver::Field> first_part(const solver::Executor& executor, const Volume&
   if (const auto* saved = std::get_if<FieldStart>(&start.from)) {
     TIDEMARK_TRY(check_grid(saved->phi->geometry, source.geometry, "phi"));
     if (saved->phi->check_fits(source.geometry, executor.band())) return *saved->phi;
-    return solver::Field::from_dense(source.geometry, saved->phi->dense(), executor.band());  // another band
+    return saved->phi->repaged(executor.band(), executor.memory().page_shape);
   }
-  const auto mask = mask_of(start, source);
-  if (!mask) return pass_on(mask);
-  if (*mask == nullptr) return solver::Field::empty(source.geometry, executor.band());
-  return solver::distance_transform(**mask, executor.band(), executor.memory().page_shape);
+  const auto inside = inside_of(start, source);
+  if (!inside) return pass_on(inside);
+  if (!*inside) return solver::Field::empty(source.geometry, executor.band());
+  return solver::distance_transform(**inside, executor.band(), executor.memory().page_shape);
 }
 
 }  // namespace
 
 Result<solver::Field> place(solver::Executor& executor, const Volume& source, const Start& start,
                             const Progress& progress) {
-  auto first = first_part(executor, source, start);
-  if (!first) return first;
-  if (progress.cancelled()) return cancelled_error();
-  TIDEMARK_TRY(executor.restore(*first));
+  {
+    const auto first = first_part(executor, source, start);
+    if (!first) return first;
+    if (progress.cancelled()) return cancelled_error();
+    TIDEMARK_TRY(executor.restore(*first));
+  }
   for (const solver::Sphere& sphere : start.seeds) {
     TIDEMARK_TRY(executor.paint(sphere, solver::Brush::add));
   }
@@ -121,8 +123,8 @@ Status check_spheres(const Start& start, const Geometry& grid) {
   return {};
 }
 
-Result<std::shared_ptr<const Mask>> mask_of(const Start& start, const Volume& source) {
-  return std::visit(FirstMask{source}, start.from);
+Result<std::optional<Inside>> inside_of(const Start& start, const Volume& source) {
+  return std::visit(FirstInside{source}, start.from);
 }
 
 std::string Start::describe() const {

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/inside.h"
 #include "core/progress.h"
 #include "solver/executor.h"
 
@@ -74,9 +75,9 @@ struct Start {
 [[nodiscard]] std::shared_ptr<const solver::Constraints> joined(
     std::shared_ptr<const solver::Constraints> marks, const solver::MotionLimit* limit);
 
-// The first part as a mask, on the grid of `source`, the volume as the solver sees it. Null: there is none,
-// or it is a saved level set. Fails as begin() does.
-Result<std::shared_ptr<const Mask>> mask_of(const Start& start, const Volume& source);
+// What is inside by the first part, on the grid of `source`, the volume as the solver sees it, which must
+// outlive the result. None: there is none, or it is a saved level set. Fails as begin() does.
+Result<std::optional<Inside>> inside_of(const Start& start, const Volume& source);
 // Fails (ErrorKind::usage) when a seed or an eraser is outside the grid.
 Status check_spheres(const Start& start, const Geometry& grid);
 // Gives the executor its start in place of its phi. `source` is the volume as the solver sees it.

@@ -46,14 +46,13 @@ class PageRefiner {
     const Index3 first = fine_.layout.first_voxel(page);
     const Index3 valid = fine_.layout.valid_shape(page);
     for (int axis = 0; axis < 3; ++axis) place(axis, first[axis], valid[axis]);
-    std::int32_t& entry = fine_.table[static_cast<std::size_t>(page)];
     if (const auto constant = constant_around()) {
-      entry = *constant;
+      fine_.table[static_cast<std::size_t>(page)] = *constant;
       return;
     }
     gather();
     interpolate(valid);
-    keep(valid, entry);
+    fine_.store_page(page, values_);
   }
 
  private:
@@ -113,23 +112,6 @@ class PageRefiner {
     });
   }
 
-  void keep(Index3 valid, std::int32_t& entry) {
-    bool inside = true;
-    bool outside = true;
-    const Index3 shape = fine_.layout.page_shape();
-    for_each_voxel(Index3(0), valid, [&](Index3 v) {
-      const float phi = values_[static_cast<std::size_t>(v.x + shape.x * (v.y + shape.y * v.z))];
-      inside = inside && phi == limit_;
-      outside = outside && phi == -limit_;
-    });
-    if (inside || outside) {
-      entry = inside ? Field::kInside : Field::kOutside;
-      return;
-    }
-    entry = static_cast<std::int32_t>(fine_.resident_pages());
-    fine_.pages.insert(fine_.pages.end(), values_.begin(), values_.end());
-  }
-
   const Field& coarse_;
   const CoarseGrid& grid_;
   Field& fine_;
@@ -170,16 +152,25 @@ int levels_for(const Geometry& geometry) {
   return levels;
 }
 
-Mask coarsened(const Mask& mask, const CoarseGrid& grid) {
+Mask coarsened(const Inside& inside, const CoarseGrid& grid) {
+  const Index3 blocks = grid.coarse().size;
   Mask result{grid.coarse(), {}};
   result.voxels.reserve(static_cast<std::size_t>(grid.coarse().voxel_count()));
-  for_each_voxel(Index3(0), grid.coarse().size, [&](Index3 block) {
-    const Index3 size = grid.size_of(block);
-    std::int64_t inside = 0;
-    for_each_voxel(grid.first_of(block), size, [&](Index3 voxel) {
-      inside += mask.voxels[static_cast<std::size_t>(mask.geometry.offset(voxel))] != 0 ? 1 : 0;
+  std::vector<std::uint8_t> row(static_cast<std::size_t>(grid.fine().size.x));
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(blocks.x));  // voxels inside in a row of blocks
+  for_each_voxel(Index3(0), {1, blocks.y, blocks.z}, [&](Index3 first) {
+    std::fill(counts.begin(), counts.end(), 0);
+    const Index3 size = grid.size_of(first);
+    for_each_voxel(grid.first_of(first), {1, size.y, size.z}, [&](Index3 voxel) {
+      inside.read(inside.geometry.offset(voxel), row);
+      for (std::size_t x = 0; x < row.size(); ++x) {
+        counts[x / static_cast<std::size_t>(grid.factor().x)] += row[x];
+      }
     });
-    result.voxels.push_back(2 * inside >= size.x * size.y * size.z ? 1 : 0);
+    for (std::int64_t x = 0; x < blocks.x; ++x) {
+      const std::int64_t voxels = grid.size_of({x, first.y, first.z}).x * size.y * size.z;
+      result.voxels.push_back(2 * counts[static_cast<std::size_t>(x)] >= voxels ? 1 : 0);
+    }
   });
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/inside.h"
 #include "core/volume.h"
 #include "solver/field.h"
 #include "solver/parameters.h"
@@ -41,7 +42,7 @@ class CoarseGrid {
 [[nodiscard]] int levels_for(const Geometry& geometry);
 
 // A block is inside where at least half of its voxels are.
-[[nodiscard]] Mask coarsened(const Mask& mask, const CoarseGrid& grid);
+[[nodiscard]] Mask coarsened(const Inside& inside, const CoarseGrid& grid);
 // A block is a wall where one of its voxels is, else an anchor where all of them are. Limits of phi, which
 // lie between voxels, are left out.
 [[nodiscard]] Constraints coarsened(const Constraints& constraints, const CoarseGrid& grid);

@@ -1,113 +1,207 @@
 #include "solver/distance_transform.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/gtx/component_wise.hpp>
-#include <limits>
+#include <glm/common.hpp>
+#include <memory>
+#include <vector>
 
+#include "core/out_of_memory.h"
 #include "core/thread_pool.h"
+#include "solver/box_distances.h"
 
 namespace tidemark::solver {
 namespace {
 
-// The squared distance is separable: from a voxel's centre to the nearest of some boxes it is the least sum
-// of the axes' squared distances. Each pass takes the least over one axis, no further than the band reaches.
+// What a page, or its surroundings, hold: one of these bits, or both.
+constexpr std::uint8_t kHoldsOutside = 1;
+constexpr std::uint8_t kHoldsInside = 2;
+constexpr std::uint8_t kHoldsBoth = kHoldsOutside | kHoldsInside;
 
-// The squared distance along an axis, in units of the smallest spacing, from a voxel's centre to the nearest
-// point of the box of the voxel that is as many steps away as the index says; infinite beyond the band.
-std::vector<float> axis_costs(double spacing, double band) {
-  const auto reach = static_cast<std::int64_t>(std::ceil(band / spacing + 0.5));
-  std::vector<float> costs = {0.0F};
-  for (std::int64_t steps = 1; steps <= reach; ++steps) {
-    const double distance = (static_cast<double>(steps) - 0.5) * spacing;
-    costs.push_back(static_cast<float>(distance * distance));
-  }
-  costs.push_back(std::numeric_limits<float>::infinity());
-  return costs;
+Index3 rounded_up(Index3 voxels, Index3 pages) {
+  return (voxels + pages - Index3(1)) / pages;
 }
 
-// Calls body(offset of its first voxel, y, z) for every row along x, on all threads.
-template <class Body>
-void for_each_row(const Index3& size, ThreadPool& threads, const Body& body) {
-  constexpr std::int64_t kVoxelsPerPiece = 1 << 16;
-  const std::int64_t rows_per_piece = std::max<std::int64_t>(1, kVoxelsPerPiece / size.x);
-  threads.for_each(size.y * size.z, rows_per_piece, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t row = begin; row < end; ++row) body(row * size.x, row % size.y, row / size.y);
-  });
-}
-
-// The pass along x: the squared distance in its row from each voxel to the nearest one for which mask != 0
-// equals `inside`.
-void least_along_x(const Mask& mask, bool inside, const std::vector<float>& costs, ThreadPool& threads,
-                   std::vector<float>& to) {
-  const std::int64_t length = mask.geometry.size.x;
-  const std::size_t none = costs.size() - 1;
-  for_each_row(mask.geometry.size, threads, [&](std::int64_t first, std::int64_t, std::int64_t) {
-    const std::uint8_t* voxels = mask.voxels.data() + first;
-    float* result = to.data() + first;
-    std::size_t steps = none;
-    const auto next = [&](std::int64_t x) {
-      steps = (voxels[x] != 0) == inside ? 0 : std::min(steps + 1, none);
-      return costs[steps];
-    };
-    for (std::int64_t x = 0; x < length; ++x) result[x] = next(x);
-    steps = none;
-    for (std::int64_t x = length - 1; x >= 0; --x) result[x] = std::min(result[x], next(x));
-  });
-}
-
-// The pass along y (axis 1) or z (axis 2).
-void least_along_axis(const Index3& size, int axis, const std::vector<float>& costs, ThreadPool& threads,
-                      const std::vector<float>& from, std::vector<float>& to) {
-  const auto reach = static_cast<std::int64_t>(costs.size()) - 2;
-  const std::int64_t stride = axis == 1 ? size.x : size.x * size.y;
-  for_each_row(size, threads, [&](std::int64_t first, std::int64_t y, std::int64_t z) {
-    const std::int64_t position = axis == 1 ? y : z;
-    const std::int64_t low = std::max(-position, -reach);
-    const std::int64_t high = std::min(size[axis] - 1 - position, reach);
-    float* result = to.data() + first;
-    std::fill_n(result, size.x, std::numeric_limits<float>::infinity());
-    for (std::int64_t steps = low; steps <= high; ++steps) {
-      const float cost = costs[static_cast<std::size_t>(std::abs(steps))];
-      const float* source = from.data() + first + steps * stride;
-      for (std::int64_t x = 0; x < size.x; ++x) result[x] = std::min(result[x], source[x] + cost);
+// What each page holds.
+std::vector<std::uint8_t> contents_of(const Inside& inside, const PageLayout& layout, ThreadPool& threads) {
+  const Index3 pages = layout.pages();
+  const Index3 size = layout.volume_size();
+  const Index3 shape = layout.page_shape();
+  std::vector<std::uint8_t> contents(static_cast<std::size_t>(layout.page_count()), 0);
+  threads.for_each(pages.y * pages.z, 1, [&](std::int64_t begin, std::int64_t end, int) {
+    std::vector<std::uint8_t> row(static_cast<std::size_t>(size.x));
+    for (std::int64_t row_of_pages = begin; row_of_pages < end; ++row_of_pages) {
+      const Index3 first(0, row_of_pages % pages.y * shape.y, row_of_pages / pages.y * shape.z);
+      const Index3 last = glm::min(first + shape, size);
+      std::uint8_t* const held = contents.data() + row_of_pages * pages.x;
+      for (std::int64_t z = first.z; z < last.z; ++z) {
+        for (std::int64_t y = first.y; y < last.y; ++y) {
+          inside.read(inside.geometry.offset({0, y, z}), row);
+          for (std::int64_t page = 0; page < pages.x; ++page) {
+            const auto* const voxels = row.data() + page * shape.x;
+            const std::int64_t there = std::min(shape.x, size.x - page * shape.x);
+            const auto count = std::count(voxels, voxels + there, std::uint8_t{1});
+            if (count != 0) held[page] |= kHoldsInside;
+            if (count != there) held[page] |= kHoldsOutside;
+          }
+        }
+      }
     }
   });
+  return contents;
 }
 
-// Squared distances from every voxel to the nearest voxel for which mask != 0 equals `inside`. `scratch` is
-// as large as the mask.
-std::vector<float> squared_distances(const Mask& mask, bool inside, glm::dvec3 spacing, double band,
-                                     ThreadPool& threads, std::vector<float>& scratch) {
-  const Index3 size = mask.geometry.size;
-  std::vector<float> distances(mask.voxels.size());
-  least_along_x(mask, inside, axis_costs(spacing.x, band), threads, distances);
-  least_along_axis(size, 1, axis_costs(spacing.y, band), threads, distances, scratch);
-  least_along_axis(size, 2, axis_costs(spacing.z, band), threads, scratch, distances);
-  return distances;
+// What each page holds together with those that are at most `reach` pages away along each axis.
+std::vector<std::uint8_t> with_surroundings(std::vector<std::uint8_t> contents, const PageLayout& layout,
+                                            Index3 reach) {
+  std::int64_t stride = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t length = layout.pages()[axis];
+    const std::vector<std::uint8_t> from = contents;
+    for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+      const std::int64_t place = page / stride % length;
+      const std::int64_t low = std::max(-reach[axis], -place);
+      const std::int64_t high = std::min(reach[axis], length - 1 - place);
+      std::uint8_t held = 0;
+      for (std::int64_t steps = low; steps <= high; ++steps) {
+        held |= from[static_cast<std::size_t>(page + steps * stride)];
+      }
+      contents[static_cast<std::size_t>(page)] = held;
+    }
+    stride *= length;
+  }
+  return contents;
 }
+
+// phi layer by layer of blocks. A block is some pages, so many that it is not small beside its surroundings,
+// which are computed with it.
+class PageDistances {
+ public:
+  PageDistances(const Inside& inside, Field& phi)
+      : inside_(inside),
+        phi_(phi),
+        layout_(phi.layout),
+        reach_(phi.geometry, phi.band),
+        block_(glm::clamp(rounded_up(reach_.voxels * std::int64_t{2}, layout_.page_shape()), Index3(1),
+                          layout_.pages())),
+        boxes_(static_cast<std::size_t>(threads_.threads()), BoxDistances(reach_)) {}
+
+  void run() {
+    near_ = with_surroundings(contents_of(inside_, layout_, threads_), layout_,
+                              rounded_up(reach_.voxels, layout_.page_shape()));
+    // Only what is used of it becomes memory; growing would copy all pages.
+    const auto nearby = std::count(near_.begin(), near_.end(), kHoldsBoth);
+    const std::int64_t values = nearby * layout_.voxels_per_page();
+    asking_for(values * std::int64_t{sizeof(float)},
+               [&] { phi_.pages.reserve(static_cast<std::size_t>(values)); });
+    for (std::int64_t layer = 0; layer < layout_.pages().z; layer += block_.z) make_layer(layer);
+  }
+
+ private:
+  void make_layer(std::int64_t first_layer) {
+    const std::int64_t pages_per_layer = layout_.pages().x * layout_.pages().y;
+    const std::int64_t layers = std::min(block_.z, layout_.pages().z - first_layer);
+    first_page_ = first_layer * pages_per_layer;
+    find_places(layers * pages_per_layer);
+    const Index3 blocks = rounded_up(layout_.pages(), block_);
+    threads_.for_each(blocks.x * blocks.y, 1, [&](std::int64_t begin, std::int64_t end, int member) {
+      for (std::int64_t block = begin; block < end; ++block) {
+        make_block({block % blocks.x * block_.x, block / blocks.x * block_.y, first_layer}, member);
+      }
+    });
+    store();
+  }
+
+  // Where the pages of the layer that the boundary is near go to.
+  void find_places(std::int64_t pages) {
+    places_.clear();
+    std::int64_t used = 0;
+    for (std::int64_t page = first_page_; page < first_page_ + pages; ++page) {
+      places_.push_back(is_near(page) ? used++ : -1);
+    }
+    values_.assign(static_cast<std::size_t>(used * layout_.voxels_per_page()),
+                   static_cast<float>(-phi_.band));
+  }
+
+  [[nodiscard]] bool is_near(std::int64_t page) const {
+    return near_[static_cast<std::size_t>(page)] == kHoldsBoth;
+  }
+
+  void make_block(Index3 first_page, int member) {
+    const Index3 end_page = glm::min(first_page + block_, layout_.pages());
+    bool any = false;
+    const auto for_each_near = [&](const auto& visit) {
+      for (std::int64_t z = first_page.z; z < end_page.z; ++z) {
+        for (std::int64_t y = first_page.y; y < end_page.y; ++y) {
+          for (std::int64_t x = first_page.x; x < end_page.x; ++x) {
+            if (const std::int64_t page = layout_.page_number({x, y, z}); is_near(page)) visit(page);
+          }
+        }
+      }
+    };
+    for_each_near([&](std::int64_t) { any = true; });
+    if (!any) return;
+    const Index3 first = first_page * layout_.page_shape();
+    const Index3 size = glm::min(end_page * layout_.page_shape(), layout_.volume_size()) - first;
+    const auto distances =
+        boxes_[static_cast<std::size_t>(member)].compute(inside_, first, size, static_cast<float>(phi_.band));
+    for_each_near([&](std::int64_t page) { copy(page, distances.data(), first, size); });
+  }
+
+  void copy(std::int64_t page, const float* distances, Index3 first, Index3 size) {
+    const Index3 at = layout_.first_voxel(page) - first;
+    const Index3 valid = layout_.valid_shape(page);
+    const Index3 shape = layout_.page_shape();
+    float* const to = values_of(page);
+    for (std::int64_t z = 0; z < valid.z; ++z) {
+      for (std::int64_t y = 0; y < valid.y; ++y) {
+        std::copy_n(distances + at.x + size.x * (at.y + y + size.y * (at.z + z)), valid.x,
+                    to + shape.x * (y + shape.y * z));
+      }
+    }
+  }
+
+  float* values_of(std::int64_t page) {
+    return values_.data() + places_[static_cast<std::size_t>(page - first_page_)] * layout_.voxels_per_page();
+  }
+
+  // In the order of pages, whoever made them.
+  void store() {
+    const auto length = static_cast<std::size_t>(layout_.voxels_per_page());
+    const auto pages = static_cast<std::int64_t>(places_.size());
+    for (std::int64_t page = first_page_; page < first_page_ + pages; ++page) {
+      if (is_near(page)) {
+        phi_.store_page(page, {values_of(page), length});
+      } else if (near_[static_cast<std::size_t>(page)] == kHoldsInside) {
+        phi_.table[static_cast<std::size_t>(page)] = Field::kInside;
+      }
+    }
+  }
+
+  const Inside& inside_;
+  Field& phi_;
+  const PageLayout& layout_;
+  ThreadPool threads_;
+  BandReach reach_;
+  Index3 block_;                     // pages
+  std::vector<BoxDistances> boxes_;  // one a thread
+  std::vector<std::uint8_t> near_;   // what pages hold as far as the band reaches
+
+  // Of the layer that is made: its first page, and the values of those that the boundary is near.
+  std::int64_t first_page_ = 0;
+  std::vector<std::int64_t> places_;
+  std::vector<float> values_;
+};
 
 }  // namespace
 
+Field distance_transform(const Inside& inside, double band, Index3 page_shape) {
+  Field phi = Field::empty(inside.geometry, band, page_shape);
+  PageDistances(inside, phi).run();
+  return phi;
+}
+
 Field distance_transform(const Mask& mask, double band, Index3 page_shape) {
-  const glm::dvec3 spacing = mask.geometry.spacing_mm / glm::compMin(mask.geometry.spacing_mm);
-  ThreadPool threads;
-  std::vector<float> phi;  // > 0 inside
-  {
-    std::vector<float> scratch(mask.voxels.size());
-    phi = squared_distances(mask, false, spacing, band, threads, scratch);
-    const std::vector<float> to_inside = squared_distances(mask, true, spacing, band, threads, scratch);
-    const auto limit = static_cast<float>(band);
-    for_each_row(mask.geometry.size, threads, [&](std::int64_t first, std::int64_t, std::int64_t) {
-      for (std::int64_t voxel = first; voxel < first + mask.geometry.size.x; ++voxel) {
-        const auto i = static_cast<std::size_t>(voxel);
-        const bool inside = mask.voxels[i] != 0;
-        const float distance = std::min(std::sqrt(inside ? phi[i] : to_inside[i]), limit);
-        phi[i] = inside ? distance : -distance;
-      }
-    });
-  }
-  return Field::from_dense(mask.geometry, phi, band, page_shape);
+  return distance_transform(inside_of(mask), band, page_shape);
 }
 
 }  // namespace tidemark::solver

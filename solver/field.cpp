@@ -2,9 +2,19 @@
 
 #include <algorithm>
 
+#include "core/out_of_memory.h"
 #include "solver/paging/page_rows.h"
 
 namespace tidemark::solver {
+namespace {
+
+template <class Value>
+std::vector<Value> zeros(std::int64_t count) {
+  return asking_for(count * static_cast<std::int64_t>(sizeof(Value)),
+                    [&] { return std::vector<Value>(static_cast<std::size_t>(count)); });
+}
+
+}  // namespace
 
 float Field::at(Index3 voxel) const {
   const VirtualAddress address = layout.translate(voxel);
@@ -44,7 +54,7 @@ Status Field::check_fits(const Geometry& grid, double wanted_band) const {
 }
 
 std::vector<float> Field::dense() const {
-  std::vector<float> values(static_cast<std::size_t>(geometry.voxel_count()));
+  std::vector<float> values = zeros<float>(geometry.voxel_count());
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     const std::int32_t entry = table[static_cast<std::size_t>(page)];
     const float constant = static_cast<float>(entry == kInside ? band : -band);
@@ -69,7 +79,7 @@ Volume Field::to_volume() const {
 }
 
 Mask Field::mask() const {
-  Mask result{geometry, std::vector<std::uint8_t>(static_cast<std::size_t>(geometry.voxel_count()))};
+  Mask result{geometry, zeros<std::uint8_t>(geometry.voxel_count())};
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     const std::int32_t entry = table[static_cast<std::size_t>(page)];
     if (entry == kOutside) continue;
@@ -99,29 +109,35 @@ Field Field::from_dense(const Geometry& geometry, std::span<const float> values,
                         Index3 page_shape) {
   Field field = empty(geometry, band, page_shape);
   const auto limit = static_cast<float>(band);
-  const std::int64_t page_voxels = field.layout.voxels_per_page();
-  std::vector<float> page_values(static_cast<std::size_t>(page_voxels), -limit);
+  std::vector<float> page_values(static_cast<std::size_t>(field.layout.voxels_per_page()), -limit);
   for (std::int64_t page = 0; page < field.layout.page_count(); ++page) {
-    bool inside = true;
-    bool outside = true;
-    for_each_row(
-        geometry, field.layout, page, [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
-          for (std::int64_t i = 0; i < length; ++i) {
-            const float phi = std::clamp(values[static_cast<std::size_t>(offset + i)], -limit, limit);
-            inside = inside && phi == limit;
-            outside = outside && phi == -limit;
-            page_values[static_cast<std::size_t>(index + i)] = phi;
-          }
-        });
-    std::int32_t& entry = field.table[static_cast<std::size_t>(page)];
-    if (inside) {
-      entry = kInside;
-    } else if (!outside) {
-      entry = static_cast<std::int32_t>(field.resident_pages());
-      field.pages.insert(field.pages.end(), page_values.begin(), page_values.end());
-    }
+    for_each_row(geometry, field.layout, page,
+                 [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+                   const float* row = values.data() + offset;
+                   std::transform(row, row + length, page_values.data() + index,
+                                  [limit](float phi) { return std::clamp(phi, -limit, limit); });
+                 });
+    field.store_page(page, page_values);
   }
   return field;
+}
+
+void Field::store_page(std::int64_t page, std::span<const float> values) {
+  const auto limit = static_cast<float>(band);
+  bool inside = true;
+  bool outside = true;
+  for_each_row(geometry, layout, page, [&](std::int64_t, std::int64_t length, std::int64_t index) {
+    const float* row = values.data() + index;
+    inside = inside && std::all_of(row, row + length, [limit](float phi) { return phi == limit; });
+    outside = outside && std::all_of(row, row + length, [limit](float phi) { return phi == -limit; });
+  });
+  std::int32_t& entry = table[static_cast<std::size_t>(page)];
+  if (inside || outside) {
+    entry = inside ? kInside : kOutside;
+    return;
+  }
+  entry = static_cast<std::int32_t>(resident_pages());
+  pages.insert(pages.end(), values.begin(), values.end());
 }
 
 }  // namespace tidemark::solver

@@ -35,9 +35,16 @@ struct Field {
 
   // All outside.
   static Field empty(const Geometry& geometry, double band, Index3 page_shape = kDefaultPageShape);
+  // The same phi in pages of another shape, clamped to another band. Where it is as far from the surface as
+  // the old band reaches it is as far as the new one does.
+  [[nodiscard]] Field repaged(double new_band, Index3 page_shape) const;
+
   // Values in voxel order; pages that are +band or -band throughout are not stored.
   static Field from_dense(const Geometry& geometry, std::span<const float> values, double band,
                           Index3 page_shape = kDefaultPageShape);
+  // What a page is, layout.voxels_per_page() values in [-band, band]. A resident page gets its place after
+  // all that are there; one that is +band or -band throughout is not stored.
+  void store_page(std::int64_t page, std::span<const float> values);
 };
 
 }  // namespace tidemark::solver

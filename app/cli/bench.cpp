@@ -88,7 +88,7 @@ Result<Case> make_case(const BenchOptions& options, Console& console) {
   if (phantom->init_threshold) {
     // The whole surface is there from the first step; a seed would take a thousand to reach it.
     const auto& [low, high] = *phantom->init_threshold;
-    result.start = solver::distance_transform(imaging::threshold(*result.volume, low, high),
+    result.start = solver::distance_transform(imaging::between(*result.volume, low, high),
                                               solver::default_band(result.volume->geometry));
   } else {
     result.seed = *phantom->seed;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/cli/interrupt.h"
+#include "core/out_of_memory.h"
 
 namespace tidemark::cli {
 namespace {
@@ -153,8 +154,8 @@ int run_program(int argc, char** argv) {
     Program program{Console(interrupt.stop_token()), {}};
     try {
       return run_unguarded(argc, argv, program);
-    } catch (const std::bad_alloc&) {
-      return program.console.finish(fail(ErrorKind::capability, "out of memory"));
+    } catch (const std::bad_alloc& error) {
+      return program.console.finish(out_of_memory(error));
     } catch (const std::exception& error) {
       return program.console.finish(fail(ErrorKind::internal, "{}", error.what()));
     }

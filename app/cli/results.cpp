@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "document/segment_meshes.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
@@ -161,7 +162,7 @@ Status ResultWriter::stage_out(const RunResults& results) {
       continue;
     }
     if (form == FileForm::mesh && !mesh) {
-      auto surface = imaging::extract_surface(results.phi.to_volume());
+      auto surface = document::mesh_of(results.phi);
       if (!surface) return pass_on(surface);
       mesh = std::move(*surface);
     }

@@ -1,6 +1,8 @@
 // The filters that prepare a start: smoothing of the source, masks from values.
 #pragma once
 
+#include "core/bit_mask.h"
+#include "core/inside.h"
 #include "core/progress.h"
 #include "core/volume.h"
 
@@ -10,12 +12,13 @@ namespace tidemark::imaging {
 // the same grid (ITK's recursive Gaussian).
 Result<Volume> smooth(const Volume& volume, double sigma_mm, const Progress& progress = {});
 
-// Voxels with low <= value <= high.
+// Voxels with low <= value <= high. The volume must outlive the first.
+Inside between(const Volume& volume, double low, double high);
 Mask threshold(const Volume& volume, double low, double high);
 
 // The voxels with low <= value <= high that are connected to `seed` across faces (ITK's ConnectedThreshold).
 // Fails (ErrorKind::usage) when the seed is outside the volume or its value is outside [low, high].
-Result<Mask> flood_fill(const Volume& volume, Index3 seed, double low, double high);
+Result<BitMask> flood_fill(const Volume& volume, Index3 seed, double low, double high);
 
 // The largest face-connected component of a mask, and how many components there are.
 struct Components {

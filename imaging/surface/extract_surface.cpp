@@ -36,11 +36,12 @@ void append_quads(Mesh& mesh, const Quads& quads, const std::vector<glm::dvec3>&
   }
 }
 
-Mesh polygonise(const Geometry& geometry, const std::vector<float>& phi) {
+Mesh polygonise(const PhiValues& phi) {
+  const Geometry& geometry = phi.geometry();
   Points points;
   Quads quads;
   {
-    const auto grid = surface_grid(geometry, phi);
+    const auto grid = surface_grid(phi);
     openvdb::tools::volumeToMesh(*grid, points, quads, 0.0);
   }
   std::vector<glm::dvec3> vertices;
@@ -49,10 +50,28 @@ Mesh polygonise(const Geometry& geometry, const std::vector<float>& phi) {
   Mesh mesh;
   // OpenVDB's quads are clockwise seen from outside; a left-handed grid is a mirror and turns them round.
   append_quads(mesh, quads, vertices, geometry, glm::determinant(geometry.direction) > 0.0);
-  fit_vertices(geometry, phi, mesh.triangles, vertices);
+  fit_vertices(phi, mesh.triangles, vertices);
   mesh.vertices.reserve(vertices.size());
   for (const auto& vertex : vertices) mesh.vertices.emplace_back(geometry.to_patient(vertex));
   return mesh;
+}
+
+Result<Mesh> surface_of(const PhiValues& phi) {
+  const Geometry& geometry = phi.geometry();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (geometry.size[axis] > std::numeric_limits<int>::max() - 2) {
+      return fail(ErrorKind::capability, "surface: {} voxels along an axis are too many",
+                  geometry.size[axis]);
+    }
+  }
+  if (geometry.voxel_count() == 0) return Mesh{};
+  try {
+    return polygonise(phi);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::capability, "surface: not enough memory for its polygons");
+  } catch (const std::exception& exception) {
+    return fail(ErrorKind::internal, "surface: {}", exception.what());
+  }
 }
 
 }  // namespace
@@ -62,21 +81,12 @@ Result<Mesh> extract_surface(const Volume& phi) {
   if (values == nullptr || static_cast<std::int64_t>(values->size()) != phi.geometry.voxel_count()) {
     return fail(ErrorKind::internal, "surface: phi must be a float volume with a value for every voxel");
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    if (phi.geometry.size[axis] > std::numeric_limits<int>::max() - 2) {
-      return fail(ErrorKind::capability, "surface: {} voxels along an axis are too many",
-                  phi.geometry.size[axis]);
-    }
-  }
   TIDEMARK_TRY(require_finite(phi, "surface"));
-  if (values->empty()) return Mesh{};
-  try {
-    return polygonise(phi.geometry, *values);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::capability, "surface: not enough memory for its polygons");
-  } catch (const std::exception& exception) {
-    return fail(ErrorKind::internal, "surface: {}", exception.what());
-  }
+  return surface_of(PhiValues(phi.geometry, values->data()));
+}
+
+Result<Mesh> extract_surface(const PhiPages& phi) {
+  return surface_of(PhiValues(phi));
 }
 
 }  // namespace tidemark::imaging

@@ -45,11 +45,8 @@ struct Sample {
 // structures.
 class SmoothField {
  public:
-  SmoothField(const Geometry& geometry, const std::vector<float>& phi)
-      : size_(geometry.size),
-        phi_(phi),
-        scale_(std::min({geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z}) /
-               geometry.spacing_mm) {}
+  explicit SmoothField(const PhiValues& phi)
+      : size_(phi.geometry().size), phi_(phi), scale_(smallest(phi) / phi.geometry().spacing_mm) {}
 
   // Voxels per smallest spacing along i, j, k.
   [[nodiscard]] glm::dvec3 scale() const { return scale_; }
@@ -100,12 +97,14 @@ class SmoothField {
   }
 
  private:
-  [[nodiscard]] double at(Index3 v) const {
-    return static_cast<double>(phi_[static_cast<std::size_t>(v.x + size_.x * (v.y + size_.y * v.z))]);
+  static double smallest(const PhiValues& phi) {
+    const glm::dvec3& spacing = phi.geometry().spacing_mm;
+    return std::min({spacing.x, spacing.y, spacing.z});
   }
+  [[nodiscard]] double at(Index3 v) const { return static_cast<double>(phi_.at(v)); }
 
   Index3 size_;
-  const std::vector<float>& phi_;
+  const PhiValues& phi_;
   glm::dvec3 scale_;
 };
 
@@ -157,10 +156,9 @@ double mean_phi(const SmoothField& field, glm::dvec3 a, glm::dvec3 b, glm::dvec3
 
 }  // namespace
 
-void fit_vertices(const Geometry& geometry, const std::vector<float>& phi,
-                  const std::vector<std::array<std::uint32_t, 3>>& triangles,
+void fit_vertices(const PhiValues& phi, const std::vector<std::array<std::uint32_t, 3>>& triangles,
                   std::vector<glm::dvec3>& vertices) {
-  const SmoothField field(geometry, phi);
+  const SmoothField field(phi);
   std::vector<Place> places;
   places.reserve(vertices.size());
   for (glm::dvec3& vertex : vertices) {

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "core/geometry.h"
+#include "imaging/surface/phi_values.h"
 
 namespace tidemark::imaging {
 
@@ -15,9 +15,8 @@ namespace tidemark::imaging {
 // four times as thick 4.4 %. Here phi is interpolated to second order, each vertex moves along the
 // gradient to phi = 0, and then outward or inward until phi is 0 on average over the triangles around it. A
 // vertex never leaves the cell that it is in; those outside the border voxels' centres (the caps) stay as
-// they are. `vertices` are voxel coordinates; `phi` in units of the smallest spacing, in voxel order.
-void fit_vertices(const Geometry& geometry, const std::vector<float>& phi,
-                  const std::vector<std::array<std::uint32_t, 3>>& triangles,
+// they are. `vertices` are voxel coordinates; `phi` is in units of the smallest spacing.
+void fit_vertices(const PhiValues& phi, const std::vector<std::array<std::uint32_t, 3>>& triangles,
                   std::vector<glm::dvec3>& vertices);
 
 }  // namespace tidemark::imaging

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "core/geometry.h"
@@ -18,11 +19,28 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
 };
 
+// phi in pages of 8 x 8 x 8 voxels, i fastest: those that the surface is near. A table entry is the number of
+// a page, or below 0 where all of it is inside or all outside; the last pages of an axis may go beyond the
+// grid. What it refers to must outlive it.
+struct PhiPages {
+  static constexpr std::int64_t kSide = 8;
+  static constexpr std::int32_t kInside = -2;  // else outside
+
+  const Geometry& geometry;
+  std::span<const std::int32_t> table;
+  std::span<const float> pages;
+  float band;  // |phi| of the others
+
+  [[nodiscard]] float constant(std::int32_t entry) const { return entry == kInside ? band : -band; }
+};
+
 // The surface phi = 0 (phi > 0 inside) at sub-voxel precision: closed, also where it meets the volume's
 // border (there it is capped on the outer faces of the border voxels), watertight and oriented outward, for
 // right- and left-handed direction matrices alike. `phi` is a float volume. An empty mesh when nothing is
 // inside.
 Result<Mesh> extract_surface(const Volume& phi);
+// The same surface, by memory that follows it.
+Result<Mesh> extract_surface(const PhiPages& phi);
 
 [[nodiscard]] double mesh_volume_ml(const Mesh& mesh);  // signed: > 0 when oriented outward
 [[nodiscard]] double mesh_area_mm2(const Mesh& mesh);

@@ -2,7 +2,6 @@
 
 #include <openvdb/tools/SignedFloodFill.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,11 +12,11 @@ namespace {
 // linear interpolation crosses zero half way, on the face of the border voxel.
 class PaddedField {
  public:
-  PaddedField(const Geometry& geometry, const std::vector<float>& phi) : geometry_(geometry), phi_(phi) {}
+  explicit PaddedField(const PhiValues& phi) : geometry_(phi.geometry()), phi_(phi) {}
 
   [[nodiscard]] float value(Index3 v) const {
     const Index3 inner = glm::clamp(v, Index3(0), geometry_.size - Index3(1));
-    const float phi = phi_[static_cast<std::size_t>(geometry_.offset(inner))];
+    const float phi = phi_.at(inner);
     return inner == v ? phi : -std::abs(phi);
   }
 
@@ -25,14 +24,12 @@ class PaddedField {
   void signs(std::int64_t j, std::int64_t k, std::vector<std::uint8_t>& row) const {
     row.assign(static_cast<std::size_t>(geometry_.size.x) + 2, 0);
     if (j < 0 || k < 0 || j >= geometry_.size.y || k >= geometry_.size.z) return;
-    const float* first = phi_.data() + geometry_.offset({0, j, k});
-    std::transform(first, first + geometry_.size.x, row.begin() + 1,
-                   [](float value) { return static_cast<std::uint8_t>(value > 0.0F); });
+    phi_.signs(j, k, row.data() + 1);
   }
 
  private:
   const Geometry& geometry_;
-  const std::vector<float>& phi_;
+  const PhiValues& phi_;
 };
 
 void add_cell(openvdb::FloatGrid::Accessor& accessor, const PaddedField& field, Index3 cell) {
@@ -45,8 +42,9 @@ void add_cell(openvdb::FloatGrid::Accessor& accessor, const PaddedField& field, 
 
 }  // namespace
 
-openvdb::FloatGrid::Ptr surface_grid(const Geometry& geometry, const std::vector<float>& phi) {
-  const PaddedField field(geometry, phi);
+openvdb::FloatGrid::Ptr surface_grid(const PhiValues& phi) {
+  const Geometry& geometry = phi.geometry();
+  const PaddedField field(phi);
   // The background is what lies far outside; its size is of no account, only its sign.
   const auto grid = openvdb::FloatGrid::create(1.0F);
   grid->setGridClass(openvdb::GRID_LEVEL_SET);

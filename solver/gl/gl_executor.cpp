@@ -40,7 +40,7 @@ Status GlExecutor::check_textures(const SpeedFunction& speed, const Constraints*
 Status GlExecutor::restore(const Field& phi) {
   TIDEMARK_TRY(phi.check_fits(source_->geometry, band()));
   if (phi.layout.page_shape() != layout_.layout().page_shape()) {
-    return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band, layout_.layout().page_shape()));
+    return restore(phi.repaged(phi.band, layout_.layout().page_shape()));
   }
   TIDEMARK_TRY(make_current());
   if (constraints_ != nullptr && !constraints_->empty()) {

@@ -63,7 +63,7 @@ bool all_equal(const Values& values, float value) {
 Status PageEdits::restore(const Field& phi) {
   TIDEMARK_TRY(phi.check_fits(contents_.geometry, contents_.model.band()));
   if (phi.layout.page_shape() != kDefaultPageShape) {
-    return restore(Field::from_dense(phi.geometry, phi.dense(), phi.band));
+    return restore(phi.repaged(phi.band, kDefaultPageShape));
   }
   TIDEMARK_TRY(pages_.check_budget(phi.resident_pages() - pages_.table().resident()));
 

@@ -92,6 +92,20 @@ class SegmentMeshesTest : public QObject {
     QVERIFY(glm::distance(of_part, of_whole) < 1e-3 * static_cast<double>(part->vertices.size()));
   }
 
+  void pages_have_the_surface_of_all_voxels() {
+    const Mask mask = ball_at(oblique_grid(), {1.0, 28.0, 10.0}, 9.0);  // at the border
+    for (const Index3 shape : {Index3(8, 8, 8), Index3(16, 16, 1)}) {
+      const solver::Field phi = solver::distance_transform(mask, 2.5, shape);
+      const auto of_pages = document::mesh_of(phi);
+      const auto of_all = imaging::extract_surface(phi.to_volume());
+      QCOMPARE(failure(of_pages), QString());
+      QCOMPARE(failure(of_all), QString());
+      QVERIFY(of_all->triangles.size() > 100);
+      QVERIFY(of_pages->triangles == of_all->triangles);
+      QVERIFY(of_pages->vertices == of_all->vertices);
+    }
+  }
+
   void files_are_named_after_their_segments() {
     const auto files =
         document::mesh_files({"Left kidney", "a/b", "", "Left kidney", "Čéška"}, "out/organs.stl");

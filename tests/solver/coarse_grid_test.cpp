@@ -136,7 +136,7 @@ class CoarseGridTest : public QObject {
     // The last block of a row of five has half as many voxels.
     for (const Index3 voxel : {Index3(4, 2, 2), Index3(4, 3, 3)}) put(voxel);
     const solver::CoarseGrid grid(fine, 1);
-    const Mask coarse = solver::coarsened(mask, grid);
+    const Mask coarse = solver::coarsened(inside_of(mask), grid);
     QCOMPARE(coarse.geometry.size, Index3(3, 2, 2));
     QCOMPARE(coarse.count(), std::int64_t{2});
     QCOMPARE(coarse.voxels[static_cast<std::size_t>(coarse.geometry.offset({0, 0, 0}))], std::uint8_t{1});

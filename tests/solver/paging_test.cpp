@@ -96,6 +96,29 @@ class PagingTest : public QObject {
     }
   }
 
+  void a_field_moves_from_page_to_page_and_band_to_band() {
+    const Geometry geometry = grid({37, 22, 19});
+    const auto values = sample(geometry, [&](glm::dvec3 p) {
+      return std::clamp(7.0 - glm::distance(p, centre_of(geometry)), -2.5, 2.5);
+    });
+    std::vector<float> wider = values;  // what is as far away as a band reaches stays so
+    for (float& phi : wider) phi = std::abs(phi) == 2.5F ? std::copysign(4.0F, phi) : phi;
+    for (const Index3 from : kShapes) {
+      const solver::Field field = solver::Field::from_dense(geometry, values, 2.5, from);
+      for (const Index3 to : kShapes) {
+        for (const double band : {1.25, 2.5, 4.0}) {
+          const solver::Field made = field.repaged(band, to);
+          const solver::Field wanted =
+              solver::Field::from_dense(geometry, band > 2.5 ? wider : values, band, to);
+          QCOMPARE(made.band, band);
+          QVERIFY(made.layout == wanted.layout);
+          QVERIFY(made.table == wanted.table);
+          QVERIFY(made.dense() == wanted.dense());
+        }
+      }
+    }
+  }
+
   void validate_finds_what_is_broken() {
     const Geometry geometry = grid({32, 32, 32});
     const auto values = sample(geometry, [&](glm::dvec3 p) {

@@ -34,7 +34,7 @@ struct PhantomProblem {
     if (phantom.init_threshold) {
       const auto& [low, high] = *phantom.init_threshold;
       return level_set.restore(
-          solver::distance_transform(imaging::threshold(*source, low, high), level_set.band()));
+          solver::distance_transform(imaging::between(*source, low, high), level_set.band()));
     }
     const auto& [i, j, k, radius_mm] = *phantom.seed;
     return level_set.paint(solver::sphere_at_voxel(source->geometry, {i, j, k}, radius_mm),

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/atomic_file.h"
+#include "document/segment_meshes.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
@@ -74,7 +75,7 @@ void CaseExports::export_mesh(CaseWindow& window) {
 void CaseExports::write_surface(CaseWindow& window, const QString& file) {
   files_.write_contents(window, file,
                         [path = path_of(file)](const document::SessionContents& contents) -> Status {
-                          const auto mesh = imaging::extract_surface(contents.phi->to_volume());
+                          const auto mesh = document::mesh_of(*contents.phi);
                           if (!mesh) return pass_on(mesh);
                           return imaging::write_mesh(*mesh, path);
                         });

@@ -1,0 +1,108 @@
+// phi in pages of another shape, page by page: a volume of floats would be far larger than all pages.
+#include <algorithm>
+#include <glm/common.hpp>
+#include <optional>
+#include <vector>
+
+#include "solver/field.h"
+
+namespace tidemark::solver {
+namespace {
+
+class Repager {
+ public:
+  Repager(const Field& from, Field& to)
+      : from_(from),
+        to_(to),
+        old_limit_(static_cast<float>(from.band)),
+        new_limit_(static_cast<float>(to.band)),
+        values_(static_cast<std::size_t>(to.layout.voxels_per_page())) {}
+
+  void make(std::int64_t page) {
+    const Index3 first = to_.layout.first_voxel(page);
+    const Index3 end = first + to_.layout.valid_shape(page);
+    const Index3 shape = from_.layout.page_shape();
+    const Index3 first_source = first / shape;
+    const Index3 end_source = (end + shape - Index3(1)) / shape;
+    if (const auto constant = constant_in(first_source, end_source)) {
+      to_.table[static_cast<std::size_t>(page)] = *constant;
+      return;
+    }
+    std::fill(values_.begin(), values_.end(), -new_limit_);
+    for_each_page(first_source, end_source, [&](Index3 source) { copy(source, first, end); });
+    to_.store_page(page, values_);
+  }
+
+ private:
+  template <class Visit>
+  static void for_each_page(Index3 first, Index3 end, Visit visit) {
+    for (std::int64_t z = first.z; z < end.z; ++z) {
+      for (std::int64_t y = first.y; y < end.y; ++y) {
+        for (std::int64_t x = first.x; x < end.x; ++x) visit(Index3(x, y, z));
+      }
+    }
+  }
+
+  [[nodiscard]] std::int32_t entry_at(Index3 source) const {
+    return from_.table[static_cast<std::size_t>(from_.layout.page_number(source))];
+  }
+
+  // What all these pages are; none when one is resident or they differ.
+  [[nodiscard]] std::optional<std::int32_t> constant_in(Index3 first, Index3 end) const {
+    const std::int32_t one = entry_at(first);
+    bool same = one < 0;
+    for_each_page(first, end, [&](Index3 source) { same = same && entry_at(source) == one; });
+    return same ? std::optional(one) : std::nullopt;
+  }
+
+  // The voxels of a page of the source that lie in the box of the page that is made.
+  void copy(Index3 source, Index3 first, Index3 end) {
+    const std::int32_t entry = entry_at(source);
+    const Index3 old_shape = from_.layout.page_shape();
+    const Index3 new_shape = to_.layout.page_shape();
+    const Index3 corner = source * old_shape;
+    const Index3 low = glm::max(first, corner);
+    const Index3 high = glm::min(end, corner + old_shape);
+    const float constant = entry == Field::kInside ? new_limit_ : -new_limit_;
+    for (std::int64_t z = low.z; z < high.z; ++z) {
+      for (std::int64_t y = low.y; y < high.y; ++y) {
+        const Index3 at = Index3(low.x, y, z);
+        float* const to = values_.data() + index_in(at - first, new_shape);
+        if (entry < 0) {
+          std::fill_n(to, high.x - low.x, constant);
+          continue;
+        }
+        const float* const row =
+            from_.pages.data() + entry * from_.layout.voxels_per_page() + index_in(at - corner, old_shape);
+        std::transform(row, row + (high.x - low.x), to, [this](float phi) { return in_band(phi); });
+      }
+    }
+  }
+
+  static std::int64_t index_in(Index3 voxel, Index3 shape) {
+    return voxel.x + shape.x * (voxel.y + shape.y * voxel.z);
+  }
+
+  [[nodiscard]] float in_band(float phi) const {
+    if (phi >= old_limit_) return new_limit_;
+    if (phi <= -old_limit_) return -new_limit_;
+    return std::clamp(phi, -new_limit_, new_limit_);
+  }
+
+  const Field& from_;
+  Field& to_;
+  float old_limit_;
+  float new_limit_;
+  std::vector<float> values_;  // of the page that is made
+};
+
+}  // namespace
+
+Field Field::repaged(double new_band, Index3 page_shape) const {
+  Field to = empty(geometry, new_band, page_shape);
+  Repager repager(*this, to);
+  for (std::int64_t page = 0; page < to.layout.page_count(); ++page) repager.make(page);
+  return to;
+}
+
+}  // namespace tidemark::solver
