@@ -12,6 +12,7 @@
 #include "engine/lesson_course.h"
 #include "ui/lessons/lesson_editor.h"
 #include "ui/lessons/lesson_panel.h"
+#include "ui/look/polish_again.h"
 #include "ui/main/case_files.h"
 #include "ui/main/case_head.h"
 #include "ui/main/case_window.h"
@@ -191,7 +192,7 @@ void Teaching::set_large(bool large) {
   QFont font = normal_;
   if (large) font.setPointSizeF(font.pointSizeF() * kLargeType);
   QApplication::setFont(font);
-  qApp->setStyleSheet(qApp->styleSheet());  // widgets under a style sheet look at the font only then
+  polish_again();
 }
 
 }  // namespace tidemark::ui
