@@ -1,20 +1,15 @@
 #include "document/autosave.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
-#include <random>
+#include <optional>
 #include <utility>
 
 #include "core/atomic_file.h"
 #include "core/json/json.h"
 #include "core/json/json_field.h"
 #include "document/checksum.h"
+#include "document/recovery_folder.h"
 #include "document/session_file.h"
 
 namespace tidemark::document {
@@ -25,40 +20,12 @@ constexpr int kVersion = 1;
 constexpr const char* kSeal = ".sha256";
 constexpr std::size_t kLargestSeal = 4096;
 
-std::filesystem::path lock_file(const std::filesystem::path& folder, const std::string& case_id) {
-  return folder / (case_id + ".lock");
-}
 std::filesystem::path session_file(const std::filesystem::path& folder, const std::string& case_id,
                                    int slot) {
   return folder / fmt::format("{}.{}.tidemark", case_id, slot);
 }
 std::filesystem::path seal_of(std::filesystem::path session) {
   return session += kSeal;
-}
-
-bool is_case_id(const std::string& id) {
-  const auto allowed = [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '-'); };
-  return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), allowed);
-}
-
-Status make_private_folder(const std::filesystem::path& folder) {
-  const auto refuse = [&](const char* why) {
-    return fail(ErrorKind::write, "{}: cannot be used for recovery: {}", folder.string(), why);
-  };
-  std::error_code error;
-  if (folder.has_parent_path()) std::filesystem::create_directories(folder.parent_path(), error);
-  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) return refuse(std::strerror(errno));
-  struct stat found {};
-  if (::lstat(folder.c_str(), &found) != 0) return refuse(std::strerror(errno));
-  if (!S_ISDIR(found.st_mode)) return refuse("not a folder");
-  if (found.st_uid != ::geteuid()) return refuse("it is somebody else's");
-  if ((found.st_mode & 0777U) != 0700U && ::chmod(folder.c_str(), 0700) != 0)
-    return refuse(std::strerror(errno));
-  return {};
-}
-
-bool is_locked(const std::filesystem::path& file) {
-  return std::filesystem::exists(std::filesystem::symlink_status(file)) && !FileLock::take(file);
 }
 
 // The generation of a copy that is whole.
@@ -81,21 +48,13 @@ std::optional<std::uint64_t> valid_generation(const std::filesystem::path& sessi
 
 }  // namespace
 
-std::string Autosave::new_case_id() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}", random(), random());
-}
-
 Result<Autosave> Autosave::create(const std::filesystem::path& folder, const std::string& case_id) {
-  if (!is_case_id(case_id)) return fail(ErrorKind::usage, "'{}' names no case", case_id);
-  TIDEMARK_TRY(make_private_folder(folder));
+  auto lock = hold_copy(folder, case_id);
+  if (!lock) return pass_on(lock);
   Autosave autosave;
   autosave.folder_ = folder;
   autosave.case_id_ = case_id;
-  autosave.lock_ = FileLock::take(lock_file(folder, case_id), FileLock::Missing::make);
-  if (!autosave.lock_) {
-    return fail(ErrorKind::write, "{}: cannot be locked", lock_file(folder, case_id).string());
-  }
+  autosave.lock_ = std::move(*lock);
   for (int slot = 0; slot < kGenerations; ++slot) {
     const auto there = valid_generation(session_file(folder, case_id, slot));
     autosave.generation_ = std::max(autosave.generation_, there.value_or(0));
@@ -127,8 +86,8 @@ std::vector<Recoverable> find_recoverable(const std::filesystem::path& folder) {
     const std::string name = entry.path().filename().string();
     const std::string case_id = name.substr(0, name.find('.'));
     const auto same = [&](const Recoverable& one) { return one.case_id == case_id; };
-    if (!is_case_id(case_id) || !name.ends_with(kSeal)) continue;
-    if (std::any_of(found.begin(), found.end(), same) || is_locked(lock_file(folder, case_id))) continue;
+    if (!is_copy_id(case_id) || !name.ends_with(kSeal)) continue;
+    if (std::any_of(found.begin(), found.end(), same) || is_held(folder, case_id)) continue;
     Recoverable newest{case_id, 0, {}, {}};
     for (int slot = 0; slot < kGenerations; ++slot) {
       const auto file = session_file(folder, case_id, slot);
@@ -148,21 +107,21 @@ void sweep_unfinished(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string target = AtomicFile::target_of(entry.path());
     const std::string case_id = target.substr(0, target.find('.'));
-    if (!is_case_id(case_id) || !entry.is_regular_file(error) || entry.is_symlink(error)) continue;
-    if (!is_locked(lock_file(folder, case_id))) unfinished.push_back(entry.path());
+    if (!is_copy_id(case_id) || !entry.is_regular_file(error) || entry.is_symlink(error)) continue;
+    if (!is_held(folder, case_id)) unfinished.push_back(entry.path());
   }
   for (const auto& file : unfinished) std::filesystem::remove(file, error);
 }
 
 void discard(const std::filesystem::path& folder, const std::string& case_id) {
-  if (!is_case_id(case_id)) return;
+  if (!is_copy_id(case_id)) return;
   std::error_code ignored;
   for (int slot = 0; slot < kGenerations; ++slot) {
     const auto file = session_file(folder, case_id, slot);
     std::filesystem::remove(seal_of(file), ignored);
     std::filesystem::remove(file, ignored);
   }
-  std::filesystem::remove(lock_file(folder, case_id), ignored);
+  remove_hold(folder, case_id);
 }
 
 }  // namespace tidemark::document

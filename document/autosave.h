@@ -19,10 +19,8 @@ namespace tidemark::document {
 class Autosave {
  public:
   // Makes the folder, for its owner alone. Fails with ErrorKind::write, also when another Autosave writes the
-  // case's copies, and with ErrorKind::usage on an id that is not made of letters, digits and
-  // hyphens.
+  // case's copies, and with ErrorKind::usage on an id that is none (new_copy_id()).
   static Result<Autosave> create(const std::filesystem::path& folder, const std::string& case_id);
-  [[nodiscard]] static std::string new_case_id();
 
   // The next generation, in place of the one before the last.
   Status write(const SessionContents& contents);

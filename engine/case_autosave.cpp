@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 
+#include "document/recovery_folder.h"
 #include "engine/background_job.h"
 
 namespace tidemark::engine {
@@ -12,7 +13,7 @@ namespace tidemark::engine {
 struct CaseAutosave::Copies {
   std::mutex mutex;
   std::filesystem::path folder;
-  std::string id = document::Autosave::new_case_id();
+  std::string id = document::new_copy_id();
   std::optional<document::Autosave> files;
   bool closed = false;
 

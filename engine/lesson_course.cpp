@@ -53,6 +53,19 @@ void LessonCourse::go_to(std::size_t index) {
   emit changed();
 }
 
+void LessonCourse::go_on_from(const document::LessonProgress& progress) {
+  answers_.parts = progress.parts;
+  tried_ = progress.tried;
+  index_ = progress.part;
+  emit changed();
+}
+
+bool LessonCourse::begun() const {
+  const auto empty = [](const document::PartAnswers& given) { return given == document::PartAnswers{}; };
+  return !std::all_of(answers_.parts.begin(), answers_.parts.end(), empty) ||
+         std::any_of(tried_.begin(), tried_.end(), [](char tried) { return tried != 0; });
+}
+
 // Questions.
 
 bool LessonCourse::can_answer() const {

@@ -11,6 +11,7 @@
 
 #include "document/lesson.h"
 #include "document/lesson_answers.h"
+#include "document/lesson_copy.h"
 #include "engine/lesson_meter.h"
 #include "engine/study_loader.h"
 
@@ -33,6 +34,15 @@ class LessonCourse : public QObject {
   [[nodiscard]] const document::LessonPart& part() const { return lesson_.parts[index_]; }
   [[nodiscard]] const document::PartAnswers& given() const { return answers_.parts[index_]; }
   void go_to(std::size_t index);  // of a part
+
+  // What is kept for a crash. Cases are not part of it: a try that goes on from another is carried out with
+  // those before it.
+  [[nodiscard]] document::LessonProgress progress() const { return {index_, answers_.parts, tried_}; }
+  void go_on_from(const document::LessonProgress& progress);  // of the same lesson
+  [[nodiscard]] bool begun() const;                           // something was answered, tried or measured
+  // Whether there are answers that no file has which the student saved.
+  [[nodiscard]] bool has_news() const { return begun() && answers_.parts != handed_in_; }
+  void set_handed_in() { handed_in_ = answers_.parts; }
 
   // A question is answered before its part is tried, and not again. Where there is nothing to try, a choice
   // is not taken back.
@@ -97,6 +107,7 @@ class LessonCourse : public QObject {
   document::Lesson lesson_;
   std::filesystem::path folder_;
   document::LessonAnswers answers_;
+  std::vector<document::PartAnswers> handed_in_;
   std::size_t index_ = 0;
   std::vector<char> tried_;
   std::vector<LessonCase> cases_;

@@ -6,6 +6,7 @@
 
 #include "cases.h"
 #include "document/autosave.h"
+#include "document/recovery_folder.h"
 #include "document/session_file.h"
 #include "tests/support/test_program.h"
 
@@ -56,7 +57,7 @@ class AutosaveTest : public QObject {
   void what_a_crash_leaves_is_found() {
     const TemporaryFolder folder;
     const auto document = phantom_case();
-    const std::string id = document::Autosave::new_case_id();
+    const std::string id = document::new_copy_id();
     {
       auto autosave = document::Autosave::create(folder / "recovery", id).value();
       QVERIFY(document::find_recoverable(folder / "recovery").empty());

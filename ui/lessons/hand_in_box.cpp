@@ -55,7 +55,10 @@ HandInBox::HandInBox(engine::LessonCourse& course, QWidget* parent) : QWidget(pa
   connect(table_, &QPushButton::clicked, this, [this] { ask(tr("Table (*.csv)"), ".csv"); });
   connect(name_, &QLineEdit::textChanged, this, &HandInBox::follow);
   connect(&course_, &engine::LessonCourse::changed, this, &HandInBox::follow);
-  connect(&jobs_, &engine::ResultJobs::written, this, [this] { say(tr("Wrote %1").arg(file_)); });
+  connect(&jobs_, &engine::ResultJobs::written, this, [this] {
+    course_.set_handed_in();
+    say(tr("Wrote %1").arg(file_));
+  });
   connect(&jobs_, &engine::ResultJobs::failed, this, &HandInBox::say);
   follow();
 }

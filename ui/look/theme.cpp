@@ -1,8 +1,10 @@
 #include "ui/look/theme.h"
 
 #include <QApplication>
+#include <QToolTip>
 #include <iterator>
 
+#include "ui/look/polish_again.h"
 #include "ui/look/style.h"
 
 namespace tidemark::ui {
@@ -73,6 +75,15 @@ constexpr Colours kDark{
 
 constexpr QRgb kCases[] = {0xff0072b2, 0xffd55e00, 0xff009e73, 0xffcc79a7, 0xff56b4e9, 0xff8c6d1f};
 
+// Qt itself draws nothing with the palette's bright text, in which style sheets find it.
+QRgb chosen(const Colours& colours) {
+  constexpr int kShare = 35;  // percent
+  const auto mix = [](int over, int under) { return (over * kShare + under * (100 - kShare)) / 100; };
+  return qRgb(mix(qRed(colours.highlight), qRed(colours.window)),
+              mix(qGreen(colours.highlight), qGreen(colours.window)),
+              mix(qBlue(colours.highlight), qBlue(colours.window)));
+}
+
 QPalette palette_of(const Colours& colours) {
   QPalette palette;
   using Role = QPalette::ColorRole;
@@ -85,7 +96,7 @@ QPalette palette_of(const Colours& colours) {
       {Role::PlaceholderText, colours.placeholder},
       {Role::Button, colours.button},
       {Role::ButtonText, colours.text},
-      {Role::BrightText, colours.highlighted_text},
+      {Role::BrightText, chosen(colours)},
       {Role::Highlight, colours.highlight},
       {Role::HighlightedText, colours.highlighted_text},
       {Role::Link, colours.link},
@@ -107,47 +118,44 @@ QPalette palette_of(const Colours& colours) {
   return palette;
 }
 
-// Slim bars, docks and groups that are parted by lines rather than boxes. %1 line, %2 under the mouse, %3
-// chosen, %4 accent, %5 tool tip, %6 text.
+// Slim bars, docks and groups that are parted by lines rather than boxes. Colours are the palette's, so that
+// another theme needs no other style sheet: mid is a line, midlight what is under the mouse, bright-text what
+// is chosen, highlight an accent.
 constexpr const char* kStyleSheet = R"(
 QToolBar { border: none; padding: 2px 4px; spacing: 1px; }
-QToolBar::separator:horizontal { background: %1; width: 1px; margin: 4px 5px; }
-QToolBar::separator:vertical { background: %1; height: 1px; margin: 5px 4px; }
+QToolBar::separator:horizontal { background: palette(mid); width: 1px; margin: 4px 5px; }
+QToolBar::separator:vertical { background: palette(mid); height: 1px; margin: 5px 4px; }
 QToolBar QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 3px; }
-QToolBar QToolButton:hover { background: %2; }
-QToolBar QToolButton:pressed, QToolBar QToolButton:checked { background: %3; border-color: %4; }
-QToolBar QToolButton:focus { border-color: %4; }
+QToolBar QToolButton:hover { background: palette(midlight); }
+QToolBar QToolButton:pressed, QToolBar QToolButton:checked { background: palette(bright-text); border-color: palette(highlight); }
+QToolBar QToolButton:focus { border-color: palette(highlight); }
 QToolBar QToolButton[popupMode="1"] { padding-right: 16px; }
 QToolBar QToolButton[popupMode="2"] { padding-right: 12px; }
 QToolBar QToolButton::menu-button { border: none; width: 14px; }
 QToolBar QToolButton::menu-indicator { subcontrol-origin: padding; subcontrol-position: right center; }
-QTabWidget::pane { border: none; border-top: 1px solid %1; }
+QTabWidget::pane { border: none; border-top: 1px solid palette(mid); }
 QTabBar::tab { border: 2px solid transparent; padding: 4px 10px; }
-QTabBar::tab:hover { background: %2; }
-QTabBar::tab:top:selected { border-bottom-color: %4; }
-QTabBar::tab:bottom:selected { border-top-color: %4; }
-QTabBar::tab:left:selected { border-right-color: %4; }
-QTabBar::tab:right:selected { border-left-color: %4; }
-QDockWidget::title { background: %2; padding: 4px 8px; }
+QTabBar::tab:hover { background: palette(midlight); }
+QTabBar::tab:top:selected { border-bottom-color: palette(highlight); }
+QTabBar::tab:bottom:selected { border-top-color: palette(highlight); }
+QTabBar::tab:left:selected { border-right-color: palette(highlight); }
+QTabBar::tab:right:selected { border-left-color: palette(highlight); }
+QDockWidget::title { background: palette(midlight); padding: 4px 8px; }
 QMainWindow::separator { background: transparent; width: 5px; height: 5px; }
-QMainWindow::separator:hover { background: %4; }
-QGroupBox { border: none; border-top: 1px solid %1; margin-top: 1.3em; padding-top: 4px; }
+QMainWindow::separator:hover { background: palette(highlight); }
+QGroupBox { border: none; border-top: 1px solid palette(mid); margin-top: 1.3em; padding-top: 4px; }
 QGroupBox::title { subcontrol-origin: margin; subcontrol-position: top left; padding: 0 6px 2px 0; }
 QGroupBox[checkable="true"] { margin-top: 1.8em; }
 QGroupBox[checkable="true"]::title { padding: 3px 6px 3px 0; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QStatusBar::item { border: none; }
-QToolTip { background: %5; color: %6; border: 1px solid %1; padding: 3px 5px; }
+QToolTip { background: palette(window); color: palette(window-text); border: 1px solid palette(mid); padding: 3px 5px; }
 )";
 
-QString style_sheet(const QPalette& palette) {
-  const QColor highlight = palette.color(QPalette::Highlight);
-  QColor chosen = highlight;
-  chosen.setAlphaF(0.35F);
-  return QString::fromLatin1(kStyleSheet)
-      .arg(palette.color(QPalette::Mid).name(), palette.color(QPalette::Midlight).name(),
-           chosen.name(QColor::HexArgb), highlight.name(), palette.color(QPalette::ToolTipBase).name(),
-           palette.color(QPalette::ToolTipText).name());
+QPalette tip_palette(const QPalette& palette) {
+  QPalette tip = palette;
+  tip.setColor(QPalette::Window, palette.color(QPalette::ToolTipBase));
+  return tip;
 }
 
 }  // namespace
@@ -168,9 +176,13 @@ void apply_theme(QApplication& application, Theme theme) {
   static const bool system_is_dark = is_dark(QGuiApplication::palette());
   const bool dark = theme == Theme::dark || (theme == Theme::system && system_is_dark);
   const QPalette palette = dark ? dark_palette() : light_palette();
-  QApplication::setStyle(new Style);  // owned by the application
+  if (application.styleSheet().isEmpty()) {
+    QApplication::setStyle(new Style);  // owned by the application
+    application.setStyleSheet(QString::fromLatin1(kStyleSheet));
+  }
   QApplication::setPalette(palette);
-  application.setStyleSheet(style_sheet(palette));
+  QToolTip::setPalette(tip_palette(palette));
+  polish_again();
 }
 
 QColor problem_colour(const QPalette& palette) {

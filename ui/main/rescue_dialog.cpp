@@ -23,6 +23,11 @@ QString text_of(const std::filesystem::path& path) {
   return QString::fromStdU16String(path.u16string());
 }
 
+QString age(const std::filesystem::path& copy) {
+  const QDateTime written = QFileInfo(text_of(copy)).lastModified();
+  return tr("copy of %1").arg(QLocale().toString(written, QLocale::ShortFormat));
+}
+
 // "Liver, study of 2004-07-31, copy of 21/11/2026 14:03", and below it where the study is.
 QString entry(const document::Recoverable& copy) {
   const document::StudyOrigin& study = copy.study;
@@ -33,25 +38,31 @@ QString entry(const document::Recoverable& copy) {
   QStringList facts;
   if (!study.phantom.empty()) facts << tr("phantom");
   if (!study.date.empty()) facts << tr("study of %1").arg(QString::fromStdString(study.date));
-  const QDateTime written = QFileInfo(text_of(copy.file)).lastModified();
-  facts << tr("copy of %1").arg(QLocale().toString(written, QLocale::ShortFormat));
+  facts << age(copy.file);
   QString html =
       QStringLiteral("<li><b>%1</b>, %2").arg(name.toHtmlEscaped(), facts.join(", ").toHtmlEscaped());
   if (!study.path.empty()) html += QStringLiteral("<br>%1").arg(text_of(study.path).toHtmlEscaped());
   return html + QStringLiteral("</li>");
 }
 
+// "Curvature flow, your answers to this lesson, copy of 21/11/2026 14:03".
+QString entry(const document::RescuedLesson& rescued) {
+  const QString title = QString::fromStdString(rescued.lesson.title);
+  return QStringLiteral("<li><b>%1</b>, %2, %3</li>")
+      .arg(title.toHtmlEscaped(), tr("your answers to this lesson"), age(rescued.copy).toHtmlEscaped());
+}
+
 }  // namespace
 
-RescueAnswer ask_about_copies(QWidget* parent, const QString& why,
-                              const std::vector<document::Recoverable>& copies) {
-  QString list;
+RescueAnswer ask_about_copies(QWidget* parent, const QString& why, const RescuedWork& work) {
+  const auto& copies = work.cases;
+  QString list = work.lesson ? entry(*work.lesson) : QString();
   for (std::size_t index = 0; index < std::min(copies.size(), kMostListed); ++index)
     list += entry(copies[index]);
   if (copies.size() > kMostListed) list += tr("<li>and %1 more</li>").arg(copies.size() - kMostListed);
   QMessageBox box(QMessageBox::Question, tr("Rescued work"), why, QMessageBox::NoButton, parent);
   box.setInformativeText(QStringLiteral("<ul style='margin:0 0 0 -22px'>%1</ul>").arg(list));
-  const bool one = copies.size() == 1;
+  const bool one = copies.size() + (work.lesson ? 1 : 0) == 1;
   QPushButton* open = box.addButton(one ? tr("Open it") : tr("Open them"), QMessageBox::AcceptRole);
   QPushButton* discard =
       box.addButton(one ? tr("Throw it away") : tr("Throw them away"), QMessageBox::DestructiveRole);

@@ -1,10 +1,12 @@
-// The question after a crash: what to do with copies of cases that were not saved.
+// The question after a crash: what to do with copies of work that was not saved.
 #pragma once
 
 #include <QString>
+#include <optional>
 #include <vector>
 
 #include "document/autosave.h"
+#include "document/lesson_copy.h"
 
 class QWidget;
 
@@ -12,8 +14,14 @@ namespace tidemark::ui {
 
 enum class RescueAnswer { open, discard, later };
 
-// `why`: the reason why there are copies. The copies are listed by name, study and age.
-RescueAnswer ask_about_copies(QWidget* parent, const QString& why,
-                              const std::vector<document::Recoverable>& copies);
+struct RescuedWork {
+  std::vector<document::Recoverable> cases;
+  std::optional<document::RescuedLesson> lesson;
+
+  [[nodiscard]] bool empty() const { return cases.empty() && !lesson; }
+};
+
+// `why`: the reason why there are copies. They are listed by name, study and age.
+RescueAnswer ask_about_copies(QWidget* parent, const QString& why, const RescuedWork& work);
 
 }  // namespace tidemark::ui

@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>
+#include <algorithm>
 
 #include "core/without_exceptions.h"
 #include "document/session_file.h"
@@ -12,8 +13,8 @@
 #include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
 #include "ui/main/message_bar.h"
-#include "ui/main/rescue_dialog.h"
 #include "ui/main/session_writer.h"
+#include "ui/main/teaching.h"
 #include "ui/settings.h"
 
 namespace tidemark::ui {
@@ -26,6 +27,20 @@ std::vector<document::Recoverable> find_copies() {
     return document::find_recoverable(engine::recovery_folder());
   });
   return found ? std::move(*found) : std::vector<document::Recoverable>();
+}
+
+// The newest; older ones are offered after it.
+std::optional<document::RescuedLesson> find_lesson() {
+  const auto age = [](const document::RescuedLesson& one) {
+    std::error_code ignored;
+    return std::filesystem::last_write_time(one.copy, ignored);
+  };
+  auto found = without_exceptions([]() -> Result<std::vector<document::RescuedLesson>> {
+    return document::find_rescued_lessons(engine::recovery_folder());
+  });
+  if (!found || found->empty()) return std::nullopt;
+  return *std::max_element(found->begin(), found->end(),
+                           [&](const auto& one, const auto& other) { return age(one) < age(other); });
 }
 
 }  // namespace
@@ -80,9 +95,10 @@ void SessionReader::refuse(const QString& problem, const std::vector<document::R
   end_reading(damaged ? tr("%1. If you have another copy of this file, open that one.").arg(problem)
                       : problem);
   if (!damaged) return;
-  offer(copies, tr("%1 cannot be read, but there are copies of work that was not saved, perhaps of the same "
-                   "case:")
-                    .arg(file));
+  offer({copies, {}},
+        tr("%1 cannot be read, but there are copies of work that was not saved, perhaps of the same "
+           "case:")
+            .arg(file));
 }
 
 void SessionReader::end_reading(const QString& problem) {
@@ -168,19 +184,31 @@ void SessionReader::keep_rescued(CaseWindow& window, const std::string& copy) {
 // To tell whether a copy is whole, all of it is read.
 void SessionReader::offer_rescued() {
   jobs_.push_back(engine::BackgroundJob::start(this, [this](engine::BackgroundJob& job) {
-    job.deliver([this, copies = find_copies()] {
-      offer(copies,
+    const auto work = std::make_shared<const RescuedWork>(RescuedWork{find_copies(), find_lesson()});
+    job.deliver([this, work] {
+      offer(*work,
             tr("Tidemark did not end as it should the last time, and kept copies of what was not saved:"));
     });
   }));
 }
 
-void SessionReader::offer(const std::vector<document::Recoverable>& copies, const QString& why) {
-  if (copies.empty()) return;
-  const RescueAnswer answer = ask_about_copies(&window_, why, copies);
-  for (const document::Recoverable& copy : copies) {
-    if (answer == RescueAnswer::open) read(QString::fromStdU16String(copy.file.u16string()), copy.case_id);
-    if (answer == RescueAnswer::discard) document::discard(engine::recovery_folder(), copy.case_id);
+void SessionReader::offer(const RescuedWork& work, const QString& why) {
+  if (work.empty()) return;
+  const RescueAnswer answer = ask_about_copies(&window_, why, work);
+  if (answer == RescueAnswer::later) return;
+  const bool open = answer == RescueAnswer::open;
+  for (const document::Recoverable& copy : work.cases) {
+    if (open) {
+      read(QString::fromStdU16String(copy.file.u16string()), copy.case_id);
+    } else {
+      document::discard(engine::recovery_folder(), copy.case_id);
+    }
+  }
+  if (!work.lesson) return;
+  if (open) {
+    window_.teaching().go_on(*work.lesson);
+  } else {
+    document::discard_lesson(engine::recovery_folder(), work.lesson->id);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "document/session_contents.h"
 #include "engine/study_loader.h"
 #include "ui/main/case_window.h"
+#include "ui/main/rescue_dialog.h"
 
 namespace tidemark::engine {
 class BackgroundJob;
@@ -30,7 +31,8 @@ class SessionReader : public QObject {
   void ask_and_open();
   void open(const QString& file);
 
-  // Tells of copies of cases that a program left behind that died, and opens them if the user wants.
+  // Tells of copies of cases, and of a lesson's answers, that a program left behind that died, and opens them
+  // if the user wants.
   void offer_rescued();
 
  signals:
@@ -54,7 +56,7 @@ class SessionReader : public QObject {
   void find_images(const std::shared_ptr<const engine::LoadedStudy>& study);
   void restore(const std::shared_ptr<const engine::LoadedStudy>& study,
                std::shared_ptr<const document::SessionContents> contents, const QStringList& problems);
-  void offer(const std::vector<document::Recoverable>& copies, const QString& why);
+  void offer(const RescuedWork& work, const QString& why);
   void keep_rescued(CaseWindow& window, const std::string& copy);
 
   MainWindow& window_;

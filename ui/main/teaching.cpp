@@ -8,10 +8,13 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "engine/case_autosave.h"
 #include "engine/case_proxy.h"
+#include "engine/lesson_autosave.h"
 #include "engine/lesson_course.h"
 #include "ui/lessons/lesson_editor.h"
 #include "ui/lessons/lesson_panel.h"
+#include "ui/look/polish_again.h"
 #include "ui/main/case_files.h"
 #include "ui/main/case_head.h"
 #include "ui/main/case_window.h"
@@ -80,14 +83,29 @@ void Teaching::open(const QString& file) {
   auto lesson = document::Lesson::load(path);
   if (!lesson) return window_.tell(QString::fromStdString(lesson.error().message), kAboutLessons);
   window_.settle(kAboutLessons);
-  begin(std::move(*lesson), path.parent_path());
-  file_ = path;
+  begin(std::move(*lesson), path);
 }
 
-void Teaching::begin(document::Lesson lesson, const std::filesystem::path& folder) {
+void Teaching::begin(document::Lesson lesson, const std::filesystem::path& file) {
+  show(std::move(lesson), file, nullptr);
+}
+
+// The copy goes once there is another one.
+void Teaching::go_on(const document::RescuedLesson& rescued) {
+  show(rescued.lesson, rescued.file, &rescued.progress);
+  const auto remove = [id = rescued.id] { document::discard_lesson(engine::recovery_folder(), id); };
+  connect(autosave_.get(), &engine::LessonAutosave::saved, this, remove, Qt::SingleShotConnection);
+}
+
+void Teaching::show(document::Lesson lesson, const std::filesystem::path& file,
+                    const document::LessonProgress* progress) {
   end();
-  file_.clear();
-  course_ = std::make_unique<engine::LessonCourse>(std::move(lesson), folder);
+  file_ = file;
+  course_ = std::make_unique<engine::LessonCourse>(std::move(lesson), file.parent_path());
+  if (progress) course_->go_on_from(*progress);
+  autosave_ = std::make_unique<engine::LessonAutosave>(*course_, file, engine::recovery_folder());
+  connect(autosave_.get(), &engine::LessonAutosave::failed, this,
+          [this](const QString& message) { window_.tell(message, kAboutLessons); });
   connect(course_.get(), &engine::LessonCourse::case_wanted, this, &Teaching::open_case);
   connect(course_.get(), &engine::LessonCourse::case_used, this, &Teaching::show_case);
   connect(course_.get(), &engine::LessonCourse::changed, this, &Teaching::name_case);
@@ -124,7 +142,9 @@ void Teaching::end() {
   if (!course_) return;
   delete dock_->widget();
   head_ = nullptr;
+  autosave_.reset();
   course_.reset();
+  file_.clear();
   dock_->hide();
   show_->setEnabled(false);
   edit_->setEnabled(false);
@@ -184,6 +204,12 @@ LessonEditor& Teaching::editor() {
 }
 
 bool Teaching::may_close() {
+  if (course_ && course_->has_news() &&
+      QMessageBox::question(&window_, tr("End the lesson"),
+                            tr("The answers to “%1” were not saved. Close all the same?")
+                                .arg(QString::fromStdString(course_->lesson().title))) != QMessageBox::Yes) {
+    return false;
+  }
   return !editor_ || !editor_->isVisible() || editor_->close();
 }
 
@@ -191,7 +217,7 @@ void Teaching::set_large(bool large) {
   QFont font = normal_;
   if (large) font.setPointSizeF(font.pointSizeF() * kLargeType);
   QApplication::setFont(font);
-  qApp->setStyleSheet(qApp->styleSheet());  // widgets under a style sheet look at the font only then
+  polish_again();
 }
 
 }  // namespace tidemark::ui

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "document/lesson.h"
+#include "document/lesson_copy.h"
 
 class QAction;
 class QDockWidget;
@@ -16,6 +16,7 @@ class QMenu;
 
 namespace tidemark::engine {
 class CaseProxy;
+class LessonAutosave;
 class LessonCourse;
 struct LoadedStudy;
 }  // namespace tidemark::engine
@@ -36,15 +37,19 @@ class Teaching : public QObject {
 
   void fill(QMenu& menu);
   void show_list(QPoint at);  // that menu, somewhere else on the screen
-  // `folder` holds its file: where its studies are looked for.
-  void begin(document::Lesson lesson, const std::filesystem::path& folder);
-  void open(const QString& file);  // a lesson; says what is wrong with it
+  // Its studies are looked for beside its file; empty: one of the program's own.
+  void begin(document::Lesson lesson, const std::filesystem::path& file);
+  void go_on(const document::RescuedLesson& rescued);  // with the answers that a crash has left
+  void open(const QString& file);                      // a lesson; says what is wrong with it
   [[nodiscard]] engine::LessonCourse* course() const { return course_.get(); }  // null: none
-  // Whether the program may end: asks about a lesson that was written and not saved.
+  // Whether the program may end: asks about answers that were not handed in, and about a lesson that was
+  // written and not saved.
   [[nodiscard]] bool may_close();
 
  private:
   void ask_and_open();
+  void show(document::Lesson lesson, const std::filesystem::path& file,
+            const document::LessonProgress* progress);
   void end();
   void open_case(const std::shared_ptr<const engine::LoadedStudy>& study);
   void show_case(engine::CaseProxy& proxy, const document::LessonTry& attempt);
@@ -55,6 +60,7 @@ class Teaching : public QObject {
 
   MainWindow& window_;
   std::unique_ptr<engine::LessonCourse> course_;
+  std::unique_ptr<engine::LessonAutosave> autosave_;  // of the course
   QDockWidget* dock_ = nullptr;
   CaseHead* head_ = nullptr;
   QPointer<CaseWindow> named_;  // at the head

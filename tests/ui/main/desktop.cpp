@@ -1,9 +1,7 @@
 #include "tests/ui/main/desktop.h"
 
-#include <QAbstractEventDispatcher>
 #include <QMenu>
 #include <QMenuBar>
-#include <QMetaEnum>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPushButton>
@@ -18,60 +16,6 @@
 #include "ui/look/theme.h"
 
 namespace tidemark::test {
-namespace {
-constexpr double kWorthTelling = 30.0;  // milliseconds
-}
-
-bool WatchedApplication::notify(QObject* receiver, QEvent* event) {
-  // Events within events belong to the outermost one.
-  if (depth_ > 0) return QApplication::notify(receiver, event);
-  in_now_ = QStringLiteral("%1 of %2")
-                .arg(QMetaEnum::fromType<QEvent::Type>().valueToKey(event->type()),
-                     receiver ? receiver->metaObject()->className() : "");
-  since_.start();
-  ++depth_;
-  const bool handled = QApplication::notify(receiver, event);
-  --depth_;
-  note_stretch();
-  return handled;
-}
-
-void WatchedApplication::watch_loops() {
-  // A question that an event asks has a loop of its own, which does what the user does: what kept the user
-  // waiting ends where it turns.
-  auto* dispatcher = QAbstractEventDispatcher::instance();
-  const auto turn = [this] {
-    if (depth_ == 0) return;
-    note_stretch();
-    since_.restart();
-  };
-  connect(dispatcher, &QAbstractEventDispatcher::aboutToBlock, this, turn);
-  connect(dispatcher, &QAbstractEventDispatcher::awake, this, [this] {
-    if (depth_ > 0) since_.restart();  // it slept
-  });
-}
-
-void WatchedApplication::note_stretch() {
-  const double ms = static_cast<double>(since_.nsecsElapsed()) / 1e6;
-  if (ms > kWorthTelling) qInfo("%.0f ms in %s", ms, qPrintable(in_now_));
-  if (ms <= longest_ms_) return;
-  longest_ms_ = ms;
-  in_ = in_now_;
-}
-
-void WatchedApplication::restart() {
-  longest_ms_ = 0.0;
-  in_.clear();
-}
-
-QString WatchedApplication::longest() const {
-  return QStringLiteral("%1 ms in %2").arg(longest_ms_, 0, 'f', 0).arg(in_);
-}
-
-WatchedApplication& WatchedApplication::instance() {
-  return static_cast<WatchedApplication&>(*qApp);
-}
-
 solver::ExecutorKind story_executor() {
   const QByteArray name = qgetenv("TIDEMARK_STORIES");
   if (name.isEmpty()) return solver::ExecutorKind::host;
@@ -106,12 +50,17 @@ Desktop::Desktop(solver::ExecutorKind executor, QSize size, bool use_opengl) {
   window_->show();
   if (!QTest::qWaitForWindowExposed(window_.get())) qFatal("the window did not appear");
   WatchedApplication::instance().restart();
+  WatchedApplication::instance().take_held();  // the window's own beginning
 }
 
 Desktop::~Desktop() {
   window_.reset();
   engine_.reset();
-  qInfo("the longest event took %s", qPrintable(WatchedApplication::instance().longest()));
+  WatchedApplication& watched = WatchedApplication::instance();
+  qInfo("the longest event took %s", qPrintable(watched.longest()));
+  const QStringList held = watched.take_held();
+  if (held.isEmpty() || !QTest::currentTestFunction()) return;
+  QTest::qFail(qPrintable("the user interface was held: " + held.join("; ")), __FILE__, __LINE__);
 }
 
 ui::CaseWindow* Desktop::open_phantom(const QString& kind) {

@@ -3,7 +3,6 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QElapsedTimer>
 #include <QImage>
 #include <QMessageBox>
 #include <QTest>
@@ -12,35 +11,13 @@
 
 #include "engine/engine.h"
 #include "tests/support/support.h"
+#include "tests/ui/main/watched_application.h"
 #include "ui/main/main_window.h"
 #include "ui/views/picture_view.h"
 #include "ui/views/slice_view.h"
 #include "ui/views/volume_view.h"
 
 namespace tidemark::test {
-
-// Notices how long the thread of the user interface is busy with one event, and with which: from where it
-// begins, or a loop in it turns, to where it ends.
-class WatchedApplication : public QApplication {
- public:
-  WatchedApplication(int& argc, char** argv) : QApplication(argc, argv) { watch_loops(); }
-  bool notify(QObject* receiver, QEvent* event) override;
-
-  void restart();
-  [[nodiscard]] double longest_ms() const { return longest_ms_; }
-  [[nodiscard]] QString longest() const;  // "31 ms in Paint of tidemark::VolumeViewWidget"
-  [[nodiscard]] static WatchedApplication& instance();
-
- private:
-  void watch_loops();
-  void note_stretch();
-
-  int depth_ = 0;
-  QElapsedTimer since_;  // the event began, or the loop in it turned
-  QString in_now_;
-  double longest_ms_ = 0.0;
-  QString in_;
-};
 
 // The executor of stories that run with one only: host, or the one that TIDEMARK_STORIES names
 // ("compute" or "stream").
@@ -56,8 +33,8 @@ struct PhiTraffic {
 };
 
 // Settings, recovery and everything else of this program goes into a folder of its own that is gone after it.
-// TIDEMARK_STORY_THEME=dark shows all in the dark theme. At the end it tells which event kept the user
-// interface longest since the window was there.
+// TIDEMARK_STORY_THEME=dark shows all in the dark theme. At the end the test fails if an event held the user
+// interface since the window was there: see WatchedApplication.
 class Desktop {
  public:
   explicit Desktop(solver::ExecutorKind executor, QSize size = {1280, 800}, bool use_opengl = true);

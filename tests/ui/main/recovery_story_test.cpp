@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "document/autosave.h"
+#include "document/recovery_folder.h"
 #include "engine/background_job.h"
 #include "imaging/phantom/phantom.h"
 #include "tests/support/test_program.h"
@@ -155,7 +156,7 @@ void RecoveryStoryTest::a_damaged_session_brings_the_copies_that_there_are() {
   // A copy that a program left behind.
   bool kept = false;
   desktop.proxy().take_snapshot("{}", [&kept](const auto& snapshot) {
-    auto copies = document::Autosave::create(engine::recovery_folder(), document::Autosave::new_case_id());
+    auto copies = document::Autosave::create(engine::recovery_folder(), document::new_copy_id());
     kept = copies && copies->write(snapshot->contents);
   });
   QVERIFY(Desktop::wait_for([&] { return kept; }));

@@ -1,0 +1,65 @@
+#include "document/recovery_folder.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <random>
+
+namespace tidemark::document {
+namespace {
+
+std::filesystem::path lock_file(const std::filesystem::path& folder, const std::string& id) {
+  return folder / (id + ".lock");
+}
+
+Status make_private_folder(const std::filesystem::path& folder) {
+  const auto refuse = [&](const char* why) {
+    return fail(ErrorKind::write, "{}: cannot be used for recovery: {}", folder.string(), why);
+  };
+  std::error_code error;
+  if (folder.has_parent_path()) std::filesystem::create_directories(folder.parent_path(), error);
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) return refuse(std::strerror(errno));
+  struct stat found {};
+  if (::lstat(folder.c_str(), &found) != 0) return refuse(std::strerror(errno));
+  if (!S_ISDIR(found.st_mode)) return refuse("not a folder");
+  if (found.st_uid != ::geteuid()) return refuse("it is somebody else's");
+  if ((found.st_mode & 0777U) != 0700U && ::chmod(folder.c_str(), 0700) != 0)
+    return refuse(std::strerror(errno));
+  return {};
+}
+
+}  // namespace
+
+std::string new_copy_id() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+bool is_copy_id(const std::string& id) {
+  const auto allowed = [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '-'); };
+  return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), allowed);
+}
+
+Result<FileLock> hold_copy(const std::filesystem::path& folder, const std::string& id) {
+  if (!is_copy_id(id)) return fail(ErrorKind::usage, "'{}' names no case", id);
+  TIDEMARK_TRY(make_private_folder(folder));
+  FileLock lock = FileLock::take(lock_file(folder, id), FileLock::Missing::make);
+  if (!lock) return fail(ErrorKind::write, "{}: cannot be locked", lock_file(folder, id).string());
+  return lock;
+}
+
+bool is_held(const std::filesystem::path& folder, const std::string& id) {
+  const auto file = lock_file(folder, id);
+  return std::filesystem::exists(std::filesystem::symlink_status(file)) && !FileLock::take(file);
+}
+
+void remove_hold(const std::filesystem::path& folder, const std::string& id) {
+  std::error_code ignored;
+  std::filesystem::remove(lock_file(folder, id), ignored);
+}
+
+}  // namespace tidemark::document

@@ -1,0 +1,40 @@
+// The application of desktop tests, which notices what holds the thread of the user interface.
+#pragma once
+
+#include <QApplication>
+#include <QStringList>
+#include <utility>
+
+namespace tidemark::test {
+
+// Measures how long that thread computes in one event: from where the event begins, or a loop in it turns, to
+// where it ends. Time of the processor is counted and no time on the clock, so that it does not matter what
+// else the machine does.
+class WatchedApplication : public QApplication {
+ public:
+  // No event of a story may take more. Events are to take 50 ms at most; the rest is for slow machines.
+  static constexpr double kLimitMs = TIDEMARK_EVENT_LIMIT_MS;
+
+  WatchedApplication(int& argc, char** argv) : QApplication(argc, argv) { watch_loops(); }
+  bool notify(QObject* receiver, QEvent* event) override;
+
+  void restart();  // of longest()
+  [[nodiscard]] double longest_ms() const { return longest_ms_; }
+  [[nodiscard]] QString longest() const;  // "31 ms in Paint of tidemark::VolumeViewWidget"
+  // Those beyond the limit since the last call.
+  [[nodiscard]] QStringList take_held() { return std::exchange(held_, {}); }
+  [[nodiscard]] static WatchedApplication& instance();
+
+ private:
+  void watch_loops();
+  void note_stretch();
+
+  int depth_ = 0;
+  double since_ms_ = 0.0;  // the event began, or the loop in it turned
+  QString in_now_;
+  double longest_ms_ = 0.0;
+  QString in_;
+  QStringList held_;
+};
+
+}  // namespace tidemark::test
