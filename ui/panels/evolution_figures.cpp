@@ -13,12 +13,25 @@ namespace {
 
 const QString kNothing = QStringLiteral("–");
 
+// Nothing is known of a surface that has not been watched for a while.
+QString moving_text(const engine::CaseState& state) {
+  if (!state.begun || !document::has_surface(state.outcome)) return kNothing;
+  if (state.converged) return EvolutionFigures::tr("nowhere");
+  if (!state.moving_pages || state.moving_pages->empty()) return kNothing;
+  return EvolutionFigures::tr("%1 of %2 pages")
+      .arg(count_text(static_cast<std::int64_t>(state.moving_pages->size())),
+           count_text(state.memory.resident_pages));
+}
+
 }  // namespace
 
 EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Figures"));
   step_ = form.figure(tr("Step"), tr("Steps since the surface was placed."));
+  moves_ = form.figure(tr("Still moving"),
+                       tr("Pages in which the surface goes on, inwards or outwards; voxels that only flicker "
+                          "do not count. F goes to the place that moves most."));
   dice_part_ = new QWidget;
   Form truth(dice_part_);
   dice_ =
@@ -65,7 +78,7 @@ void EvolutionFigures::attach() {
   comparison_->forget();
   show_distances();
   if (proxy()) return;
-  for (QLabel* figure : {step_, dice_, pages_, bytes_, pace_}) figure->clear();
+  for (QLabel* figure : {step_, moves_, dice_, pages_, bytes_, pace_}) figure->clear();
 }
 
 void EvolutionFigures::show_distances() {
@@ -78,6 +91,7 @@ void EvolutionFigures::show_distances() {
 void EvolutionFigures::refresh() {
   const engine::CaseState& state = proxy()->state();
   step_->setText(count_text(state.step));
+  moves_->setText(moving_text(state));
   dice_->setText(state.begun && state.dice ? number_text(*state.dice, 3) : kNothing);
   if (const auto& truth = proxy()->study().truth; truth && state.begun && state.phi)
     comparison_->ask(truth, state.phi);

@@ -28,6 +28,7 @@ class EvolutionFigures : public CaseWidget {
   void show_distances();
 
   QLabel* step_;
+  QLabel* moves_;
   QWidget* dice_part_;  // for phantoms
   QLabel* dice_;
   QLabel* mean_distance_;
