@@ -54,6 +54,9 @@ std::int64_t collect(Voxels& voxels, const Geometry& geometry, Index3 seed) {
 // Voxels with values in a range, and a bit for each that is taken.
 template <class Stored>
 struct InRange {
+  InRange(const TypedVolume<Stored>& all, double lowest, double highest, BitMask& region)
+      : volume(all), low(lowest), high(highest), taken(region) {}
+
   [[nodiscard]] bool may_take(std::int64_t offset) const {
     const double value{volume.value(offset)};
     return value >= low && value <= high;
