@@ -59,7 +59,7 @@ struct CaseState {
   std::shared_ptr<const solver::Field> phi;  // at most a second old while it plays, else current
   document::Curve curve;                     // how it has developed since the start
   solver::SurfaceStatistics surface;         // as of the last measurement
-  std::optional<double> dice;                // against the phantom's truth, as of the last measurement
+  std::optional<double> dice;                // against CaseProxy::truth(), as of the last measurement
   document::RegionStatistics inside;  // of the volume's values, under the surface; measured when it rests
   std::vector<document::Label> labels;
   std::vector<document::RegionStatistics> label_statistics;       // in the order of `labels`

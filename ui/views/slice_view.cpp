@@ -306,7 +306,7 @@ void SliceViewWidget::paint_swipe_line(QPainter& painter) const {
 }
 
 void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_screen) {
-  const auto& truth = proxy().study().truth;
+  const auto& truth = proxy().truth();
   if (!settings().truth || !truth) return;
   truth_outline_.paint(painter, truth, orientation(), settings().cursor_mm, on_screen, kTruthColour);
 }
