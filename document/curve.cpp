@@ -24,6 +24,12 @@ void Curve::add(const CurvePoint& point) {
   points_ = std::move(longer);
 }
 
+void Curve::forget_dice() {
+  Points points = *points_;
+  for (CurvePoint& point : points) point.dice.reset();
+  points_ = std::make_shared<const Points>(std::move(points));
+}
+
 void Curve::cut(std::int64_t step) {
   if (points_->empty() || points_->back().step < step) return;
   const auto end = std::find_if(points_->begin(), points_->end(),

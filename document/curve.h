@@ -32,6 +32,8 @@ class Curve {
 
   // Adds a point behind the last one, or nothing if no step was made. A long curve is thinned.
   void add(const CurvePoint& point);
+  // Another answer is compared with from now on.
+  void forget_dice();
   // Removes the points from this step on.
   void cut(std::int64_t step);
 

@@ -112,6 +112,7 @@ class LevelSet final : private OpenChange {
 
   // The development of the surface since the start; the caller adds points, undo and redo bring them back.
   [[nodiscard]] const Curve& curve() const { return curve_; }
+  void forget_dice() { curve_.forget_dice(); }  // of the curve
   void note(const CurvePoint& point);
 
  private:

@@ -17,7 +17,10 @@ class CaseMeter {
  public:
   // Nothing is compared when it is null.
   void compare_with(std::shared_ptr<const Mask> truth) {
+    overlap_.reset();
+    dice_.reset();
     if (truth) overlap_.emplace(std::move(truth));
+    thorough_ = false;
   }
   // After a run of steps.
   void computed(const solver::AdvanceReport& report, std::int64_t step);

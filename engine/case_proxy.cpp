@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/without_exceptions.h"
-#include "document/label_segments.h"
 #include "engine/case_balance.h"
 #include "engine/case_passes.h"
 #include "engine/case_runner.h"
@@ -18,6 +17,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
                      RestoredCase restored)
     : engine_(engine),
       study_(std::move(study)),
+      truth_(study_->truth),
       comparison_([this](std::uint64_t state, std::function<void(StateComparison::Phi)> answer) {
         phi_of(state, std::move(answer));
       }),
@@ -36,7 +36,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
   runner_ = std::make_shared<CaseRunner>(engine_, study_, executor, std::move(receiver), std::move(restored));
   post([](CaseRunner& runner, const Progress&) { return runner.open(); });
   connect(&display_, &Display::changed, this, &CaseProxy::use_images_of_display);
-  truth_error_ = std::make_unique<TruthError>(display_, study_->truth, [this](const TruthError::Map& map) {
+  truth_error_ = std::make_unique<TruthError>(display_, truth_, [this](const TruthError::Map& map) {
     post([map](CaseRunner& runner, const Progress&) {
       runner.painter().set_truth_error(map);
       return Status();
@@ -55,6 +55,17 @@ CaseProxy::~CaseProxy() {
     runner->close();
     runner.reset();
   });
+}
+
+void CaseProxy::compare_with(std::shared_ptr<const Mask> truth) {
+  truth_ = std::move(truth);
+  state_.dice.reset();
+  truth_error_->set_truth(truth_);
+  post([truth = truth_](CaseRunner& runner, const Progress&) {
+    runner.compare_with(truth);
+    return Status();
+  });
+  emit state_changed();
 }
 
 std::uint64_t CaseProxy::new_gesture() {
@@ -252,51 +263,6 @@ void CaseProxy::phi_of(std::uint64_t state, std::function<void(StateComparison::
     weak_receiver->send([answer, phi = found ? *found : StateComparison::Phi()] { answer(phi); });
     if (!found) return pass_on(found);
     return {};
-  });
-}
-
-void CaseProxy::add_label(const QString& name) {
-  post([name = name.toStdString()](CaseRunner& runner, const Progress&) -> Status {
-    const auto id = runner.document().labels().add(name);
-    if (!id) return pass_on(id);
-    return runner.report_labels({});
-  });
-}
-
-void CaseProxy::set_label(const document::Label& label) {
-  post([label](CaseRunner& runner, const Progress&) {
-    return runner.report_labels(runner.document().labels().set(label));
-  });
-}
-
-void CaseProxy::remove_label(std::uint8_t id) {
-  post([id](CaseRunner& runner, const Progress&) {
-    return runner.report_labels(runner.document().labels().remove(id));
-  });
-}
-
-void CaseProxy::import_labels(std::shared_ptr<const imaging::Segments> segments) {
-  post([segments = std::move(segments)](CaseRunner& runner, const Progress&) {
-    return runner.report_labels(document::add_segments(runner.document().labels(), *segments));
-  });
-}
-
-void CaseProxy::accept_surface(std::uint8_t label, document::Take take) {
-  post([=](CaseRunner& runner, const Progress&) { return runner.accept_surface(label, take); });
-}
-
-void CaseProxy::accept_surface_as(const QString& name, document::Take take) {
-  post([name = name.toStdString(), take](CaseRunner& runner, const Progress&) -> Status {
-    const auto id = runner.document().labels().add(name);
-    if (!id) return pass_on(id);
-    return runner.accept_surface(*id, take);
-  });
-}
-
-void CaseProxy::begin_from_label(std::uint8_t label, std::optional<double> within_mm, int levels) {
-  post([label, within_mm, levels](CaseRunner& runner, const Progress&) {
-    runner.set_playing(false);
-    return runner.report_edit(runner.document().begin_from_label(label, within_mm, levels));
   });
 }
 

@@ -65,6 +65,10 @@ class CaseProxy : public QObject {
   [[nodiscard]] const LoadedStudy& study() const { return *study_; }
   [[nodiscard]] const std::shared_ptr<const LoadedStudy>& shared_study() const { return study_; }
   [[nodiscard]] const QString& name() const { return study_->name; }
+  // The known answer, on the volume's grid: a phantom's own, or another one; null: none.
+  [[nodiscard]] const std::shared_ptr<const Mask>& truth() const { return truth_; }
+  // Figures are compared with it from now on. It must be on the volume's grid, and is in no session.
+  void compare_with(std::shared_ptr<const Mask> truth);
   [[nodiscard]] Display& display() { return display_; }
   [[nodiscard]] Engine& engine() { return engine_; }
   // Why the surface moves or rests at a place that the user has chosen.
@@ -180,6 +184,7 @@ class CaseProxy : public QObject {
 
   Engine& engine_;
   std::shared_ptr<const LoadedStudy> study_;
+  std::shared_ptr<const Mask> truth_;
   Display display_;
   StateComparison comparison_;
   std::shared_ptr<WeakReceiver> weak_receiver_;

@@ -146,6 +146,11 @@ Status CaseRunner::report_change(Status outcome) {
   return outcome;
 }
 
+void CaseRunner::compare_with(std::shared_ptr<const Mask> truth) {
+  meter_.compare_with(std::move(truth));
+  case_->level_set().forget_dice();
+}
+
 Status CaseRunner::report_labels(Status outcome) {
   painter_.look_changed();
   meter_.labels_changed();

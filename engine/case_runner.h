@@ -55,7 +55,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status report_edit(Status outcome);
   Status report_change(Status outcome);
   Status report_labels(Status outcome);
-  Status smooth_source(double sigma_mm);  // in the background
+  void compare_with(std::shared_ptr<const Mask> truth);  // null: with nothing
+  Status smooth_source(double sigma_mm);                 // in the background
   Status undo();
   Status go_to(std::uint64_t state);
   Status accept_surface(std::uint8_t label, document::Take take);

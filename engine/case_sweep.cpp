@@ -86,7 +86,7 @@ void CaseSweep::start(const std::vector<document::SweepAxis>& axes) {
 }
 
 void CaseSweep::compute(const document::SweepStart& start, const document::SweepOptions& options) {
-  run([start, options, truth = proxy_.study().truth, window = proxy_.display().settings().window](
+  run([start, options, truth = proxy_.truth(), window = proxy_.display().settings().window](
           const Progress& progress) { return computed(start, options, truth.get(), window, progress); },
       [this](std::shared_ptr<const SweepOutcome> outcome) {
         outcome_ = std::move(outcome);

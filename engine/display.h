@@ -52,7 +52,7 @@ struct DisplaySettings {
   bool marks = true;                                           // strokes, walls and anchors
   bool change = true;                                          // of a mask that is refined
   bool forces = false;                                         // arrows of the terms, in 3D, too
-  bool truth = false;                                          // the outline of a phantom's known answer
+  bool truth = false;                                          // the outline of the known answer
   bool truth_error = false;                                    // how far the surface is from it, in colours
   renderer::SpeedTerm speed_term = renderer::SpeedTerm::data;  // of the speed map
   bool radiological = true;        // the patient's right on the left of the screen

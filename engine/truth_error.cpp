@@ -36,6 +36,15 @@ TruthError::~TruthError() {
   if (job_) job_->abandon();
 }
 
+void TruthError::set_truth(std::shared_ptr<const Mask> truth) {
+  truth_ = std::move(truth);
+  map_.reset();
+  if (job_) job_->abandon();
+  job_.reset();
+  if (std::exchange(shown_, false)) show_(nullptr);
+  follow();
+}
+
 void TruthError::follow() {
   const bool wanted = truth_ != nullptr && display_.settings().truth_error;
   if (wanted == shown_) return;

@@ -29,6 +29,8 @@ class TruthError : public QObject {
   TruthError(Display& display, std::shared_ptr<const Mask> truth, Show show);
   ~TruthError() override;
 
+  void set_truth(std::shared_ptr<const Mask> truth);
+
  private:
   void follow();
   void make_map();

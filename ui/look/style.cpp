@@ -1,7 +1,9 @@
 #include "ui/look/style.h"
 
+#include <QMainWindow>
 #include <QPainter>
 #include <QStyleOption>
+#include <QTabBar>
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -42,6 +44,14 @@ QIcon Style::standardIcon(StandardPixmap which, const QStyleOption* option, cons
     default:
       return QProxyStyle::standardIcon(which, option, widget);
   }
+}
+
+void Style::polish(QWidget* widget) {
+  QProxyStyle::polish(widget);
+  auto* tabs = qobject_cast<QTabBar*>(widget);
+  if (tabs == nullptr || qobject_cast<QMainWindow*>(tabs->parentWidget()) == nullptr) return;
+  tabs->setElideMode(Qt::ElideNone);
+  tabs->setUsesScrollButtons(true);
 }
 
 void Style::drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,

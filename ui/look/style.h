@@ -13,6 +13,9 @@ class Style : public QProxyStyle {
   // Buttons in the titles of docks: our icons.
   QIcon standardIcon(StandardPixmap which, const QStyleOption* option = nullptr,
                      const QWidget* widget = nullptr) const override;
+  // Names of panels are written out beside them; where they have no room, one scrolls.
+  void polish(QWidget* widget) override;
+  using QProxyStyle::polish;
   // The cross of tabs, and the outlines of check boxes.
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget = nullptr) const override;

@@ -30,6 +30,7 @@ class Actions : public QObject {
   QAction* add_image;
   QAction* add_series;
   QAction* import_labels;
+  QAction* compare_with_mask;
   QAction* save;
   QAction* save_as;
   QAction* export_mask;

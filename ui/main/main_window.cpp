@@ -40,6 +40,7 @@
 #include "ui/main/session_writer.h"
 #include "ui/main/status_bar.h"
 #include "ui/main/teaching.h"
+#include "ui/main/truth_reader.h"
 #include "ui/opening/ask_for_study.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/load_report.h"
@@ -79,6 +80,7 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   make_menus(*this, *actions_, {recent_, panels_, teaching_});
   make_tool_bar(*this, *actions_);
   results_ = new CaseResults(*this);
+  new TruthReader(*this);
   images_ = new ImageAdder(*this);
   connect_files();
   connect_evolution();

@@ -63,7 +63,7 @@ void add_overlays(QMenu& menu, PictureView& view, const Actions& actions) {
   add(tr("&Crosshair"), &engine::DisplaySettings::crosshair);
   add(tr("&Arrows of the terms"), &engine::DisplaySettings::forces);
   add(tr("&Examples, walls and anchors"), &engine::DisplaySettings::marks);
-  if (view.proxy().study().truth) {
+  if (view.proxy().truth()) {
     add(tr("Outline of the t&ruth"), &engine::DisplaySettings::truth);
     add(tr("&Distances to the truth"), &engine::DisplaySettings::truth_error);
   }

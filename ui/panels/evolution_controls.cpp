@@ -84,7 +84,7 @@ EvolutionControls::EvolutionControls(QWidget* parent) : CaseWidget(parent) {
                          "as the computer can."));
   pace_->set_decimals(0);
   pace_->set_range(1.0, kFreePace, SliderNumber::Scale::logarithmic);
-  form.ends_of(*pace_, tr("slow motion"), tr("free"));
+  form.ends_of(*pace_, tr("slow"), tr("free"));
   connect(pace_, &SliderNumber::edited, this, [this](double pace) {
     if (proxy()) proxy()->set_pace(pace < kFreePace ? pace : 0.0);
   });

@@ -38,26 +38,27 @@ EvolutionCurves::EvolutionCurves(QWidget* parent)
   area_ = new CurvePlot(tr("Area"), tr("mm²"), false);
   motion_ = new CurvePlot(tr("Motion"), QString(), true);
   dice_ = new CurvePlot(tr("Dice"), QString(), false);
-  dice_->setToolTip(tr("How well the surface agrees with the phantom's true shape, over the steps."));
+  dice_->setToolTip(tr("How well the surface agrees with the true shape, over the steps."));
   motion_->set_mark(solver::kConvergedSpeed,
                     tr("How fast the surface moves where it moves most, on a logarithmic scale: 1 is a front "
                        "that the data drives as fast as can be. It has converged when it has stayed "
                        "near the dashed line (%1) or below it for a while, everywhere.")
                         .arg(number_text(solver::kConvergedSpeed, 2)));
   for (CurvePlot* plot : {volume_, area_, motion_, dice_}) form.wide(plot);
-  dice_->hide();  // until there is a phantom
+  dice_->hide();  // until there is a truth
   connect(prediction_, &engine::CasePrediction::answered, this, &EvolutionCurves::show_predicted);
 }
 
 void EvolutionCurves::attach() {
-  dice_->setVisible(proxy() && proxy()->study().truth);
   prediction_->forget();
   if (proxy()) return;
+  dice_->hide();
   for (CurvePlot* plot : {volume_, area_, motion_, dice_}) plot->set_points({});
   show_predicted();
 }
 
 void EvolutionCurves::refresh() {
+  dice_->setVisible(proxy()->truth() != nullptr);
   prediction_->follow(proxy()->state());
   show_measured();
   show_predicted();

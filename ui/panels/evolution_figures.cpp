@@ -34,9 +34,8 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
                           "do not count. F goes to the place that moves most."));
   dice_part_ = new QWidget;
   Form truth(dice_part_);
-  dice_ =
-      truth.figure(tr("Dice"), tr("How well the surface agrees with the phantom's true shape: 1 is all of "
-                                  "it and nothing else, 0 nothing of it."));
+  dice_ = truth.figure(tr("Dice"), tr("How well the surface agrees with the true shape: 1 is all of "
+                                      "it and nothing else, 0 nothing of it."));
   truth_ =
       truth.check(tr("Show the truth"), tr("Draws the outline of the true shape into slices, in violet."));
   connect(truth_, &QCheckBox::clicked, this, [this](bool on) {
@@ -55,7 +54,7 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
   connect(truth_error_, &QCheckBox::clicked, this, [this](bool on) {
     change_display([=](engine::DisplaySettings& settings) { settings.truth_error = on; });
   });
-  dice_part_->hide();  // until there is a phantom
+  dice_part_->hide();  // until there is a truth
   form.wide(dice_part_);
   comparison_ = new engine::TruthComparison(this);
   connect(comparison_, &engine::TruthComparison::answered, this, &EvolutionFigures::show_distances);
@@ -74,10 +73,10 @@ void EvolutionFigures::add_details(Form& form) {
 }
 
 void EvolutionFigures::attach() {
-  dice_part_->setVisible(proxy() && proxy()->study().truth);
   comparison_->forget();
   show_distances();
   if (proxy()) return;
+  dice_part_->hide();
   for (QLabel* figure : {step_, moves_, dice_, pages_, bytes_, pace_}) figure->clear();
 }
 
@@ -93,8 +92,9 @@ void EvolutionFigures::refresh() {
   step_->setText(count_text(state.step));
   moves_->setText(moving_text(state));
   dice_->setText(state.begun && state.dice ? number_text(*state.dice, 3) : kNothing);
-  if (const auto& truth = proxy()->study().truth; truth && state.begun && state.phi)
-    comparison_->ask(truth, state.phi);
+  const auto& truth = proxy()->truth();
+  dice_part_->setVisible(truth != nullptr);
+  if (truth && state.begun && state.phi) comparison_->ask(truth, state.phi);
   truth_->setChecked(proxy()->display().settings().truth);
   truth_error_->setChecked(proxy()->display().settings().truth_error);
   const double measured = state.playing ? state.steps_per_second : state.solver_steps_per_second;

@@ -52,7 +52,7 @@ Qt::CursorShape cursor_for(engine::Tool tool) {
 }  // namespace
 
 bool PictureView::shows_truth_error() const {
-  return settings().truth_error && proxy().study().truth;
+  return settings().truth_error && proxy().truth();
 }
 
 std::optional<ColourScale> PictureView::scale_of_distances() const {

@@ -146,7 +146,10 @@ renderer::SliceView SliceViewWidget::fused_slice() const {
   renderer::SliceView view = slice();
   if (content_ != renderer::SliceContent::source) return view;
   std::vector<engine::ShownImage> over = settings().images;
-  if (const auto& agreement = display().agreement()) over.push_back(*agreement);
+  if (const auto& agreement = display().agreement()) {
+    over.push_back(*agreement);
+    view.surface = false;  // it has the colour of what all runs agree on, and hides where they begin not to
+  }
   images_.ask(over, view, screen(), size());
   const auto& newest = images_.newest();
   if (newest && newest->size == size() && newest->slice.orientation == view.orientation) {
@@ -306,7 +309,7 @@ void SliceViewWidget::paint_swipe_line(QPainter& painter) const {
 }
 
 void SliceViewWidget::paint_truth(QPainter& painter, const SliceScreen& on_screen) {
-  const auto& truth = proxy().study().truth;
+  const auto& truth = proxy().truth();
   if (!settings().truth || !truth) return;
   truth_outline_.paint(painter, truth, orientation(), settings().cursor_mm, on_screen, kTruthColour);
 }

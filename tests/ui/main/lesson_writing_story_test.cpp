@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QSignalSpy>
+#include <QTabBar>
 #include <map>
 
 #include "tests/support/test_program.h"
@@ -182,6 +183,17 @@ void LessonWritingStoryTest::large_type_reaches_every_text_and_outlives_the_them
   if (QTest::currentTestFailed()) return;
   student.measure();
   desktop.screenshot("projector-dark-measured");
+  // The names of the panels are whole.
+  QStringList cut;
+  int names = 0;
+  for (auto* tabs : desktop.window().findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+    for (int tab = 0; tabs->isVisible() && tab < tabs->count(); ++tab, ++names) {
+      const int room = std::max(tabs->tabRect(tab).width(), tabs->tabRect(tab).height());
+      if (room < tabs->fontMetrics().horizontalAdvance(tabs->tabText(tab))) cut << tabs->tabText(tab);
+    }
+  }
+  QVERIFY(names > 5);
+  QCOMPARE(cut.join('|'), QString());
   choose_theme(ui::Theme::light);
   desktop.screenshot("projector-light-measured");
   desktop.choose("Teach", projector);

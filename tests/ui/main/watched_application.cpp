@@ -2,6 +2,7 @@
 
 #include <QAbstractEventDispatcher>
 #include <QMetaEnum>
+#include <QThread>
 #include <ctime>
 
 namespace tidemark::test {
@@ -22,8 +23,8 @@ QString told(double ms, const QString& in) {
 }  // namespace
 
 bool WatchedApplication::notify(QObject* receiver, QEvent* event) {
-  // Events within events belong to the outermost one.
-  if (depth_ > 0) return QApplication::notify(receiver, event);
+  // Events within events belong to the outermost one. Other threads have events of their own.
+  if (depth_ > 0 || QThread::currentThread() != thread()) return QApplication::notify(receiver, event);
   in_now_ = QStringLiteral("%1 of %2")
                 .arg(QMetaEnum::fromType<QEvent::Type>().valueToKey(event->type()),
                      receiver ? receiver->metaObject()->className() : "");

@@ -1,0 +1,55 @@
+// The commands of a case about its labels.
+#include <utility>
+
+#include "document/label_segments.h"
+#include "engine/case_proxy.h"
+#include "engine/case_runner.h"
+
+namespace tidemark::engine {
+
+void CaseProxy::add_label(const QString& name) {
+  post([name = name.toStdString()](CaseRunner& runner, const Progress&) -> Status {
+    const auto id = runner.document().labels().add(name);
+    if (!id) return pass_on(id);
+    return runner.report_labels({});
+  });
+}
+
+void CaseProxy::set_label(const document::Label& label) {
+  post([label](CaseRunner& runner, const Progress&) {
+    return runner.report_labels(runner.document().labels().set(label));
+  });
+}
+
+void CaseProxy::remove_label(std::uint8_t id) {
+  post([id](CaseRunner& runner, const Progress&) {
+    return runner.report_labels(runner.document().labels().remove(id));
+  });
+}
+
+void CaseProxy::import_labels(std::shared_ptr<const imaging::Segments> segments) {
+  post([segments = std::move(segments)](CaseRunner& runner, const Progress&) {
+    return runner.report_labels(document::add_segments(runner.document().labels(), *segments));
+  });
+}
+
+void CaseProxy::accept_surface(std::uint8_t label, document::Take take) {
+  post([=](CaseRunner& runner, const Progress&) { return runner.accept_surface(label, take); });
+}
+
+void CaseProxy::accept_surface_as(const QString& name, document::Take take) {
+  post([name = name.toStdString(), take](CaseRunner& runner, const Progress&) -> Status {
+    const auto id = runner.document().labels().add(name);
+    if (!id) return pass_on(id);
+    return runner.accept_surface(*id, take);
+  });
+}
+
+void CaseProxy::begin_from_label(std::uint8_t label, std::optional<double> within_mm, int levels) {
+  post([label, within_mm, levels](CaseRunner& runner, const Progress&) {
+    runner.set_playing(false);
+    return runner.report_edit(runner.document().begin_from_label(label, within_mm, levels));
+  });
+}
+
+}  // namespace tidemark::engine

@@ -1,0 +1,163 @@
+// A case is compared with a known answer from a file, while its surface moves.
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QLabel>
+
+#include "imaging/files/volume_file.h"
+#include "imaging/results/results.h"
+#include "imaging/results/segments.h"
+#include "tests/support/test_program.h"
+#include "tests/ui/main/results_desktop.h"
+#include "ui/main/message_bar.h"
+#include "ui/panels/evolution_figures.h"
+
+namespace tidemark::test {
+namespace {
+
+constexpr double kRadius = 8.0;  // mm, of the surface
+
+Mask ball(const Geometry& grid, glm::dvec3 middle_mm, double radius_mm) {
+  Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
+  std::size_t voxel = 0;
+  for (std::int64_t k = 0; k < grid.size.z; ++k) {
+    for (std::int64_t j = 0; j < grid.size.y; ++j) {
+      for (std::int64_t i = 0; i < grid.size.x; ++i) {
+        const bool inside = glm::distance(grid.to_patient({i, j, k}), middle_mm) <= radius_mm;
+        mask.voxels[voxel++] = inside ? 1 : 0;
+      }
+    }
+  }
+  return mask;
+}
+
+}  // namespace
+
+class TruthStoryTest : public QObject, ResultsDesktop {
+  Q_OBJECT
+
+ private slots:
+  void init();
+  void cleanup() { close(); }
+  void a_mask_from_a_file_is_the_truth();
+  void one_of_several_regions_is_chosen();
+  void what_does_not_fit_is_said_and_changes_nothing();
+
+ private:
+  void choose_file(const QString& file);
+  [[nodiscard]] QLabel* figure(const QString& name);
+  [[nodiscard]] QString problem() { return desktop_->window().findChild<ui::MessageBar*>()->text(); }
+  [[nodiscard]] double dice_now() { return desktop_->state().dice.value_or(-1.0); }
+};
+
+void TruthStoryTest::init() {
+  open();
+  document::Start start;
+  start.seeds.push_back({kLeft, kRadius});
+  desktop_->proxy().begin(start);
+  desktop_->wait_until_idle();
+  QVERIFY(!desktop_->state().dice);
+}
+
+void TruthStoryTest::choose_file(const QString& file) {
+  desktop_->choose("File", desktop_->menu_entry("File", "Compare with a mask"));
+  auto* dialog = desktop_->window().findChild<QFileDialog*>();
+  QVERIFY(dialog);
+  dialog->selectFile(file);
+  static_cast<QDialog*>(dialog)->accept();
+}
+
+// The value beside that name.
+QLabel* TruthStoryTest::figure(const QString& name) {
+  auto* figures = desktop_->window().findChild<ui::EvolutionFigures*>();
+  for (QLabel* value : figures->findChildren<QLabel*>()) {
+    if (value->accessibleName() == name && value->isVisible()) return value;
+  }
+  return nullptr;
+}
+
+void TruthStoryTest::a_mask_from_a_file_is_the_truth() {
+  const Mask truth = ball(grid(), kLeft + glm::dvec3(2.0, 0.0, 0.0), kRadius);
+  QCOMPARE(failure(imaging::write_mask_file(truth, folder_ / "expert.nii.gz")), QString());
+  choose_file(path("expert.nii.gz"));
+  QVERIFY(Desktop::wait_for([&] { return desktop_->state().dice.has_value(); }, kPatience));
+  const double expected = dice(desktop_->state().phi->mask(), truth);
+  QVERIFY(expected > 0.5 && expected < 0.95);
+  QCOMPARE(dice_now(), expected);
+  QVERIFY(desktop_->proxy().display().settings().truth);
+
+  // The panel shows it, with distances.
+  QVERIFY(Desktop::wait_for([&] { return figure("Dice") && figure("Hausdorff 95"); }));
+  QTRY_COMPARE(figure("Dice")->text().toDouble(), std::round(expected * 1000.0) / 1000.0);
+  const auto measured = [&] { return figure("Hausdorff 95")->text().section(QChar(QChar::Nbsp), 0, 0); };
+  QVERIFY(Desktop::wait_for([&] { return measured().toDouble() > 0.5; }, kPatience));
+  QVERIFY2(measured().toDouble() < 3.0, qPrintable(measured()));
+  for (auto* check : desktop_->window().findChildren<QCheckBox*>()) {
+    if (check->text() == "Distances to the truth" && check->isVisible()) check->click();
+  }
+  QVERIFY(desktop_->proxy().display().settings().truth_error);
+  desktop_->screenshot("truth-from-a-file");
+
+  // It follows the surface.
+  desktop_->proxy().step(5);
+  desktop_->wait_until_idle();
+  QCOMPARE(dice_now(), dice(desktop_->state().phi->mask(), truth));
+  QVERIFY(desktop_->state().curve.points()->back().dice.has_value());
+
+  // Another one takes its place, and the curve is no mixture of both.
+  QCOMPARE(failure(imaging::write_mask_file(desktop_->state().phi->mask(), folder_ / "same.nrrd")),
+           QString());
+  choose_file(path("same.nrrd"));
+  QVERIFY(Desktop::wait_for([&] { return dice_now() == 1.0; }, kPatience));
+  for (const document::CurvePoint& point : *desktop_->state().curve.points()) QVERIFY(!point.dice);
+}
+
+void TruthStoryTest::one_of_several_regions_is_chosen() {
+  imaging::Segments segments = imaging::segments_of(ball(grid(), kRight, 5.0), "Cyst");
+  segments.list.push_back(imaging::segments_of(ball(grid(), kLeft, kRadius), "Kidney").list[0]);
+  const auto map = imaging::label_map_of(segments);
+  QVERIFY(map.has_value());
+  Volume labels = desktop_->proxy().volume();
+  labels.voxels = std::vector<std::int16_t>(map->voxels.begin(), map->voxels.end());
+  labels.slope = 1.0;
+  labels.intercept = 0.0;
+  QCOMPARE(failure(imaging::write_volume_file(labels, folder_ / "labels.nii")), QString());
+  choose_file(path("labels.nii"));
+  QInputDialog* question = nullptr;
+  QVERIFY(Desktop::wait_for(
+      [&] {
+        question = desktop_->window().findChild<QInputDialog*>();
+        return question && question->isVisible();
+      },
+      kPatience));
+  auto* regions = question->findChild<QComboBox*>();
+  QCOMPARE(regions->count(), 3);
+  desktop_->screenshot_at_once("truth-of-several");
+  regions->setCurrentIndex(2);
+  question->accept();
+  QVERIFY(Desktop::wait_for([&] { return dice_now() > 0.9; }, kPatience));
+  QVERIFY(desktop_->proxy().truth()->voxels == ball(grid(), kLeft, kRadius).voxels);
+}
+
+void TruthStoryTest::what_does_not_fit_is_said_and_changes_nothing() {
+  Geometry other = grid();
+  other.size.z -= 1;
+  QCOMPARE(failure(imaging::write_mask_file(ball(other, kLeft, kRadius), folder_ / "thinner.nii")),
+           QString());
+  choose_file(path("thinner.nii"));
+  QVERIFY(Desktop::wait_for([&] { return !problem().isEmpty(); }, kPatience));
+  QVERIFY2(problem().contains("thinner.nii") && problem().contains("grid"), qPrintable(problem()));
+  qInfo("%s", qPrintable(problem()));
+  QCOMPARE(failure(imaging::write_mask_file(ball(grid(), kLeft, -1.0), folder_ / "empty.nii")), QString());
+  choose_file(path("empty.nii"));
+  QVERIFY(Desktop::wait_for([&] { return problem().contains("empty.nii"); }, kPatience));
+  qInfo("%s", qPrintable(problem()));
+  QVERIFY(!desktop_->proxy().truth());
+  QVERIFY(!desktop_->state().dice);
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_TEST(tidemark::test::TruthStoryTest)
+#include "truth_story_test.moc"

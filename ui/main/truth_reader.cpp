@@ -1,0 +1,116 @@
+#include "ui/main/truth_reader.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QStatusBar>
+
+#include "engine/background_job.h"
+#include "imaging/results/segments.h"
+#include "ui/main/main_window.h"
+#include "ui/main/panel_docks.h"
+#include "ui/opening/loading_view.h"
+#include "ui/settings.h"
+#include "ui/widgets/file_patterns.h"
+
+namespace tidemark::ui {
+namespace {
+
+const char* const kAboutTruth = "comparison with a mask";
+constexpr int kShownMs = 8000;  // in the status bar
+
+}  // namespace
+
+TruthReader::TruthReader(MainWindow& window)
+    : QObject(&window), window_(window), progress_(new LoadingView(LoadingView::Shape::line)) {
+  progress_->hide();
+  window.statusBar()->addPermanentWidget(progress_);
+  connect(window.actions().compare_with_mask, &QAction::triggered, this, [this] {
+    if (CaseWindow* active = window_.active_case()) ask_for_file(*active);
+  });
+  connect(&jobs_, &engine::ResultJobs::progressed, progress_, &LoadingView::set_progress);
+  connect(progress_, &LoadingView::cancelled, &jobs_, &engine::ResultJobs::cancel);
+  connect(&jobs_, &engine::ResultJobs::labels_read, this, &TruthReader::choose);
+  connect(&jobs_, &engine::ResultJobs::cancelled, this, [this] { end(); });
+  connect(&jobs_, &engine::ResultJobs::failed, this, &TruthReader::end);
+}
+
+TruthReader::~TruthReader() {
+  if (job_) job_->abandon();
+}
+
+void TruthReader::ask_for_file(CaseWindow& window) {
+  auto* dialog = new QFileDialog(
+      &window_, tr("Compare with a mask"), settings::save_folder().get(),
+      tr("Masks and segmentations (*.dcm %1);;All files (*)").arg(QLatin1String(kVolumePatterns)));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  connect(dialog, &QFileDialog::fileSelected, this, [this, of = QPointer(&window)](const QString& file) {
+    if (of) read(*of, file);
+  });
+  dialog->open();
+}
+
+void TruthReader::read(CaseWindow& window, const QString& file) {
+  if (jobs_.busy()) return window_.tell(tr("A mask is being read already."), kAboutTruth);
+  of_ = &window;
+  file_ = file;
+  progress_->begin(QFileInfo(file).fileName());
+  progress_->show();
+  jobs_.read_labels(file.toStdU16String(), window.proxy().volume().geometry);
+}
+
+void TruthReader::end(const QString& problem) {
+  progress_->hide();
+  if (!problem.isEmpty()) window_.tell(problem, kAboutTruth);
+}
+
+void TruthReader::choose(const std::shared_ptr<const imaging::Segments>& segments) {
+  end();
+  const QString file = QFileInfo(file_).fileName();
+  if (segments->list.size() == 1) return compare(segments, {});
+  QStringList names{tr("All of them together")};
+  for (std::size_t i = 0; i < segments->list.size(); ++i)
+    names << tr("%1: %2").arg(i + 1).arg(QString::fromStdString(segments->list[i].name));
+  auto* dialog = new QInputDialog(&window_);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowTitle(tr("Compare with a mask"));
+  dialog->setLabelText(tr("%1 has %2 regions. Which is the true one?").arg(file).arg(segments->list.size()));
+  dialog->setComboBoxItems(names);
+  dialog->setTextValue(names.at(1));
+  connect(dialog, &QInputDialog::textValueSelected, this, [this, segments, names](const QString& chosen) {
+    const auto index = names.indexOf(chosen);
+    compare(segments, index > 0 ? std::optional(static_cast<std::size_t>(index) - 1) : std::nullopt);
+  });
+  dialog->open();
+}
+
+void TruthReader::compare(const std::shared_ptr<const imaging::Segments>& segments,
+                          std::optional<std::size_t> region) {
+  const QString file = QFileInfo(file_).fileName();
+  const QString name =
+      region ? tr("%1 of %2").arg(QString::fromStdString(segments->list[*region].name), file) : file;
+  job_ = engine::BackgroundJob::start(
+      this,
+      [this, segments, region, name](engine::BackgroundJob& job) {
+        const imaging::Segments wanted =
+            region ? imaging::Segments{segments->geometry, {segments->list[*region]}, {}} : *segments;
+        std::int64_t voxels = 0;
+        for (const imaging::Segment& segment : wanted.list) voxels += segment.count();
+        const auto truth = voxels > 0 ? std::make_shared<const Mask>(imaging::union_of(wanted)) : nullptr;
+        job.deliver([this, truth, name] { take(truth, name); });
+      },
+      [this](const Error& error) { end(QString::fromStdString(error.message)); });
+}
+
+void TruthReader::take(const std::shared_ptr<const Mask>& truth, const QString& name) {
+  if (!of_) return;
+  if (!truth) return end(tr("%1 has no voxel inside: there is nothing to compare with.").arg(name));
+  window_.settle(kAboutTruth);
+  of_->proxy().compare_with(truth);
+  of_->proxy().display().change([](engine::DisplaySettings& settings) { settings.truth = true; });
+  window_.panels().show("level-set");
+  window_.statusBar()->showMessage(tr("Compared with %1").arg(name), kShownMs);
+}
+
+}  // namespace tidemark::ui

@@ -1,0 +1,47 @@
+// A known answer from a file, with which a case is compared: an expert's mask, say.
+#pragma once
+
+#include <QObject>
+#include <QPointer>
+#include <memory>
+#include <optional>
+
+#include "engine/result_jobs.h"
+#include "ui/main/case_window.h"
+
+namespace tidemark::engine {
+class BackgroundJob;
+}
+
+namespace tidemark::ui {
+
+class LoadingView;
+class MainWindow;
+
+// Carries out File > Compare with a mask, on the active case.
+class TruthReader : public QObject {
+  Q_OBJECT
+ public:
+  explicit TruthReader(MainWindow& window);
+  ~TruthReader() override;
+
+  void ask_for_file(CaseWindow& window);
+  // A mask, a label map, a DICOM Segmentation or a structure set. Of several regions the user chooses one.
+  void read(CaseWindow& window, const QString& file);
+
+ private:
+  void choose(const std::shared_ptr<const imaging::Segments>& segments);
+  // All of it, or one region.
+  void compare(const std::shared_ptr<const imaging::Segments>& segments, std::optional<std::size_t> region);
+  void take(const std::shared_ptr<const Mask>& truth, const QString& name);
+  void end(const QString& problem = {});
+
+  MainWindow& window_;
+  engine::ResultJobs jobs_;
+  LoadingView* progress_;
+  QPointer<CaseWindow> of_;
+  QString file_;
+  std::shared_ptr<engine::BackgroundJob> job_;  // that makes the mask
+};
+
+}  // namespace tidemark::ui
