@@ -57,16 +57,10 @@ struct CaseState {
   double solver_steps_per_second = 0.0;  // in the solver's own time
   solver::MemoryReport memory;
   std::shared_ptr<const solver::Field> phi;  // at most a second old while it plays, else current
-<<<<<<< HEAD
   std::shared_ptr<const std::vector<std::int64_t>> moving_pages;  // as of phi; see Executor::moving_pages()
   document::Curve curve;                                          // how it has developed since the start
   solver::SurfaceStatistics surface;                              // as of the last measurement
-  std::optional<double> dice;         // against the phantom's truth, as of the last measurement
-=======
-  document::Curve curve;                     // how it has developed since the start
-  solver::SurfaceStatistics surface;         // as of the last measurement
-  std::optional<double> dice;                // against CaseProxy::truth(), as of the last measurement
->>>>>>> h-teach
+  std::optional<double> dice;         // against CaseProxy::truth(), as of the last measurement
   document::RegionStatistics inside;  // of the volume's values, under the surface; measured when it rests
   std::vector<document::Label> labels;
   std::vector<document::RegionStatistics> label_statistics;       // in the order of `labels`

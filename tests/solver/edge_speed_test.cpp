@@ -46,7 +46,7 @@ struct WeakBall {
     const auto level_set = executor(ExecutorKind::host, source(), parameters);
     set_phi(*level_set, geometry, [&](glm::dvec3 p) { return distance(p) - radius + 4.0; });
     if (!level_set->set_speed(std::move(speed))) return 0.0;
-    run(*level_set, 1500, true);
+    run(*level_set, 5000, true);
     return dice(level_set->snapshot()->mask(), truth());
   }
 };
@@ -180,7 +180,7 @@ class EdgeSpeedTest : public QObject {
     const SpeedInputs inputs = inputs_of(ball.source());
     Parameters parameters;
     parameters.alpha = 0.5;
-    const auto edges = make_speed(setting_of("edges", {{"contrast", 4.0}}), inputs);
+    const auto edges = make_speed(setting_of("edges", {{"contrast", 4.0}, {"attraction", 2.0}}), inputs);
     QCOMPARE(failure(edges), QString());
     const double held = ball.overlap(parameters, *edges);
 
