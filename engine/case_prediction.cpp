@@ -20,6 +20,7 @@ bool CasePrediction::still_holds(const Base& now) const {
   if (now.first.step == base_->first.step && !(now.first == base_->first)) return false;
   Base same = now;
   if (now.step > base_->step) same.inputs.phi = base_->inputs.phi;
+  same.inputs.moving_pages = base_->inputs.moving_pages;
   same.step = base_->step;
   same.first = base_->first;
   return same == *base_;

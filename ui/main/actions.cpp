@@ -70,7 +70,7 @@ void Actions::make_files() {
                       tr("Find a series in a PACS and open it"));
   import_labels = make("import-labels", "label", tr("I&mport labels…"), QKeySequence("Ctrl+I"), true,
                        tr("Add labels from a DICOM segmentation, an RT structure set or a label map"));
-  compare_with_mask = make("compare-with-mask", "target", tr("&Compare with a mask…"), {}, true,
+  compare_with_mask = make("compare-with-mask", "target", tr("Compare wit&h a mask…"), {}, true,
                            tr("Dice and distances to a known answer from a file, while the surface moves"));
   add_image = make("add-image", "add", tr("Add ima&ge file…"), {}, true,
                    tr("Show another image, such as PET over CT, on the slices of this case"));

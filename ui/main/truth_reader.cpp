@@ -1,9 +1,12 @@
 #include "ui/main/truth_reader.h"
 
+#include <QComboBox>
+#include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QInputDialog>
+#include <QLabel>
 #include <QStatusBar>
+#include <QVBoxLayout>
 
 #include "engine/background_job.h"
 #include "imaging/results/segments.h"
@@ -72,14 +75,23 @@ void TruthReader::choose(const std::shared_ptr<const imaging::Segments>& segment
   QStringList names{tr("All of them together")};
   for (std::size_t i = 0; i < segments->list.size(); ++i)
     names << tr("%1: %2").arg(i + 1).arg(QString::fromStdString(segments->list[i].name));
-  auto* dialog = new QInputDialog(&window_);
+  auto* dialog = new QDialog(&window_);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setObjectName(QStringLiteral("true-region"));
   dialog->setWindowTitle(tr("Compare with a mask"));
-  dialog->setLabelText(tr("%1 has %2 regions. Which is the true one?").arg(file).arg(segments->list.size()));
-  dialog->setComboBoxItems(names);
-  dialog->setTextValue(names.at(1));
-  connect(dialog, &QInputDialog::textValueSelected, this, [this, segments, names](const QString& chosen) {
-    const auto index = names.indexOf(chosen);
+  auto* regions = new QComboBox;
+  regions->addItems(names);
+  regions->setCurrentIndex(1);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+  auto* rows = new QVBoxLayout(dialog);
+  rows->addWidget(
+      new QLabel(tr("%1 has %2 regions. Which is the true one?").arg(file).arg(segments->list.size())));
+  rows->addWidget(regions);
+  rows->addWidget(buttons);
+  connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+  connect(dialog, &QDialog::accepted, this, [this, segments, regions] {
+    const int index = regions->currentIndex();
     compare(segments, index > 0 ? std::optional(static_cast<std::size_t>(index) - 1) : std::nullopt);
   });
   dialog->open();

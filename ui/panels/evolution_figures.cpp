@@ -29,9 +29,6 @@ EvolutionFigures::EvolutionFigures(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Figures"));
   step_ = form.figure(tr("Step"), tr("Steps since the surface was placed."));
-  moves_ = form.figure(tr("Still moving"),
-                       tr("Pages in which the surface goes on, inwards or outwards; voxels that only flicker "
-                          "do not count. F goes to the place that moves most."));
   dice_part_ = new QWidget;
   Form truth(dice_part_);
   dice_ = truth.figure(tr("Dice"), tr("How well the surface agrees with the true shape: 1 is all of "
@@ -69,6 +66,9 @@ void EvolutionFigures::add_details(Form& form) {
                                                  "solver's own time."));
   pages_ = form.figure(tr("Resident pages"), tr("Pages of the level set that are in memory, those near the "
                                                 "surface; and how many of them rest."));
+  moves_ = form.figure(tr("Still moving"),
+                       tr("Pages in which the surface goes on, inwards or outwards; voxels that only flicker "
+                          "do not count. F goes to the place that moves most."));
   bytes_ = form.figure(tr("Memory"), tr("What the level set takes, without the source."));
 }
 

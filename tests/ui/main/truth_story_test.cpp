@@ -1,8 +1,8 @@
 // A case is compared with a known answer from a file, while its surface moves.
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDialog>
 #include <QFileDialog>
-#include <QInputDialog>
 #include <QLabel>
 
 #include "imaging/files/volume_file.h"
@@ -124,10 +124,10 @@ void TruthStoryTest::one_of_several_regions_is_chosen() {
   labels.intercept = 0.0;
   QCOMPARE(failure(imaging::write_volume_file(labels, folder_ / "labels.nii")), QString());
   choose_file(path("labels.nii"));
-  QInputDialog* question = nullptr;
+  QDialog* question = nullptr;
   QVERIFY(Desktop::wait_for(
       [&] {
-        question = desktop_->window().findChild<QInputDialog*>();
+        question = desktop_->window().findChild<QDialog*>("true-region");
         return question && question->isVisible();
       },
       kPatience));

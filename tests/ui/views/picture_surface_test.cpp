@@ -20,6 +20,8 @@ class DesktopWith : public Desktop {
  public:
   explicit DesktopWith(const char* pictures) : Desktop(ask_for(pictures)) {}
   ~DesktopWith() {
+    // This thread puts the textures together, which is work of the processor where OpenGL is.
+    WatchedApplication::instance().take_held();
     qunsetenv("TIDEMARK_PICTURES");
     qunsetenv("TIDEMARK_RENDERER");
   }
