@@ -143,7 +143,7 @@ Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive,
   if (speed != former) {
     TIDEMARK_TRY(executor_->set_speed(std::move(speed)));
   }
-  if (const Status held = hold(drive == nullptr ? nullptr : drive->constraints, limit_); !held) {
+  if (Status held = hold(drive == nullptr ? nullptr : drive->constraints, limit_); !held) {
     TIDEMARK_TRY(executor_->set_speed(former));
     return held;
   }

@@ -305,7 +305,7 @@ Status LevelSet::change_executor(solver::ExecutorKind kind, const solver::Execut
 }
 
 Status LevelSet::rebuild(const solver::ExecutorOptions& options, std::optional<solver::ExecutorKind> kind) {
-  const Status rebuilt = setup_.change_executor(kind.value_or(setup_.kind()), options, *known_.phi);
+  Status rebuilt = setup_.change_executor(kind.value_or(setup_.kind()), options, *known_.phi);
   if (!rebuilt) return rebuilt;
   if (open_) open_->last_edit.reset();
   const solver::Parameters present = parameters();

@@ -47,7 +47,7 @@ std::int64_t LevelSet::bytes() const {
 }
 
 Status LevelSet::close() {
-  const Status known = read_back_phi();
+  Status known = read_back_phi();
   if (known && !open_->before.same_as(known_)) {
     // The change stays open, as far as it has no entry yet, if there is no memory for one.
     if (open_->last_edit) {

@@ -98,7 +98,7 @@ Result<solver::Field> first_part(const solver::Executor& executor, const Volume&
 Result<solver::Field> place(solver::Executor& executor, const Volume& source, const Start& start,
                             const Progress& progress) {
   {
-    const auto first = first_part(executor, source, start);
+    auto first = first_part(executor, source, start);
     if (!first) return first;
     if (progress.cancelled()) return cancelled_error();
     TIDEMARK_TRY(executor.restore(*first));

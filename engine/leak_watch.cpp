@@ -73,7 +73,7 @@ Result<solver::AdvanceReport> LeakWatch::advance(document::LevelSet& level_set, 
   while (all.steps < run.steps && !alarm_) {
     auto steps = begin(level_set, run.steps - all.steps);
     if (!steps) return pass_on(steps);
-    const auto part = level_set.advance({*steps, run.until_converged, run.progress});
+    auto part = level_set.advance({*steps, run.until_converged, run.progress});
     if (!part) return part;
     all.steps += part->steps;
     all.seconds += part->seconds;

@@ -38,7 +38,7 @@ Status ExecutorBase::follow_surface() {
   auto speed = speed_->following(*phi);
   if (speed == nullptr) return {};  // the present one fits
   is_following_ = true;
-  const Status taken = set_speed(std::move(speed));
+  Status taken = set_speed(std::move(speed));
   is_following_ = false;
   return taken;
 }

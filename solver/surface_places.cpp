@@ -124,12 +124,14 @@ std::optional<glm::dvec3> surface_along(const Field& phi, glm::dvec3 place, glm:
   constexpr int kHalvings = 24;
   const bool inside = phi_at(phi, place) > 0.0;
   const auto is_other = [&](double at) { return (phi_at(phi, place + at * way) > 0.0) != inside; };
-  for (double far = kStride; far <= reach; far += kStride) {
+  const auto strides = static_cast<std::int64_t>(reach / kStride);
+  for (std::int64_t i = 1; i <= strides; ++i) {
+    const double far = kStride * static_cast<double>(i);
     for (const double side : {far, -far}) {
       if (!is_other(side)) continue;
       double near = side - std::copysign(kStride, side);
       double beyond = side;
-      for (int i = 0; i < kHalvings; ++i) {
+      for (int halving = 0; halving < kHalvings; ++halving) {
         const double middle = 0.5 * (near + beyond);
         (is_other(middle) ? beyond : near) = middle;
       }

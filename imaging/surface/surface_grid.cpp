@@ -46,7 +46,7 @@ openvdb::FloatGrid::Ptr surface_grid(const PhiValues& phi) {
   const Geometry& geometry = phi.geometry();
   const PaddedField field(phi);
   // The background is what lies far outside; its size is of no account, only its sign.
-  const auto grid = openvdb::FloatGrid::create(1.0F);
+  auto grid = openvdb::FloatGrid::create(1.0F);
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
   auto accessor = grid->getAccessor();
   std::array<std::vector<std::uint8_t>, 4> rows;

@@ -96,7 +96,7 @@ Status HostExecutor::set_constraints(std::shared_ptr<const Constraints> constrai
   pages_.link_constraints();
   begin_window();
   quiet_.wake_all();
-  if (const Status limited = edits_.constrain(); !limited) {
+  if (Status limited = edits_.constrain(); !limited) {
     constraints_ = former;
     pages_.link_constraints();
     return limited;

@@ -51,7 +51,8 @@ struct PassRecord {
   // volume's border the nearest voxel counts.
   std::vector<float> phi;
   [[nodiscard]] float phi_at(int x, int y, int z = 0) const {
-    return phi[static_cast<std::size_t>((x + 1) + kBordered * ((y + 1) + kBordered * (z + 1)))];
+    const int at = (x + 1) + kBordered * ((y + 1) + kBordered * (z + 1));
+    return phi[static_cast<std::size_t>(at)];
   }
 
   // Step A: the four buffers of derivatives (resources/shaders/solver/stream/differences.glsl).
