@@ -25,21 +25,19 @@ void MotionWatch::restart(const RestRule& rule) {
   rests_ = false;
 }
 
-bool MotionWatch::add_page(const PageContent& page, PageRest& rest) {
-  if (page.samples < kMotionSamples) return false;  // it was not computed for the whole window
+void MotionWatch::add_page(const PageContent& page, PageRest& rest) {
+  if (page.samples < kMotionSamples) return;  // it was not computed for the whole window
   const double content = page.content / page.samples;
   if (rest.since < first_) {
     rest = {static_cast<float>(content), window_, -1};
-    return false;
+    return;
   }
   const double change = std::abs(content - static_cast<double>(rest.anchor));
   const double voxels = std::max(page.near_voxels / page.samples, kLeastNearVoxels);
   speed_so_far_ = std::max(speed_so_far_,
                            change / (voxels * static_cast<double>(window_ - rest.since) * rule_.window_time));
   if (change > rule_.rest_content) rest = {static_cast<float>(content), window_, window_};
-  const bool moving = rest.moved >= first_ && window_ - rest.moved < rule_.windows_to_rest;
-  if (moving) ++moving_so_far_;
-  return moving;
+  if (rule_.is_moving(rest.moved, first_, window_)) ++moving_so_far_;
 }
 
 void MotionWatch::end_window() {
@@ -50,7 +48,7 @@ void MotionWatch::end_window() {
 }
 
 bool MotionWatch::is_moving(const PageRest& rest) const {
-  return rest.moved >= first_ && window_ - 1 - rest.moved < rule_.windows_to_rest;
+  return rule_.is_moving(rest.moved, first_, window_ - 1);
 }
 
 }  // namespace tidemark::solver

@@ -35,6 +35,11 @@ struct RestRule {
 
   // `data_weight`: alpha where the data term is on, else 0. `near`: StepConstants::near.
   static RestRule of(double time_step, double data_weight, double near, std::int64_t voxels_per_page);
+
+  // At the end of window `now`, of a page that last moved in `moved`; `first`: the first window that counts.
+  [[nodiscard]] bool is_moving(std::int32_t moved, std::int32_t first, std::int32_t now) const {
+    return moved >= first && now - moved < windows_to_rest;
+  }
 };
 
 // A page's speed is a mean over the voxels beside the surface; fewer count as so many.
@@ -46,8 +51,8 @@ class MotionWatch {
   // What was seen so far no longer counts.
   void restart(const RestRule& rule);
 
-  // Of a page, at the end of a window: whether it is moving. Quiet pages need not be shown.
-  bool add_page(const PageContent& page, PageRest& rest);
+  // Of a page, at the end of a window. Quiet pages need not be shown.
+  void add_page(const PageContent& page, PageRest& rest);
   // After the last page of a window.
   void end_window();
 

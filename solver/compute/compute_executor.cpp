@@ -388,7 +388,7 @@ Result<std::vector<std::int64_t>> ComputeExecutor::quiet_pages() const {
 
 Result<std::vector<std::int64_t>> ComputeExecutor::moving_pages() const {
   TIDEMARK_TRY(device_->make_current());
-  return memory_.moving_pages(rest_rule(layout_.layout().voxels_per_page()).windows_to_rest);
+  return memory_.moving_pages(rest_rule(layout_.layout().voxels_per_page()));
 }
 
 bool ComputeExecutor::packed_view(PackedView& view) {

@@ -172,11 +172,10 @@ std::vector<std::int64_t> PageMemory::sleeping_pages() const {
   return pages_where([](const ComputePageState& page) { return page.is_asleep(); });
 }
 
-std::vector<std::int64_t> PageMemory::moving_pages(std::int32_t windows) const {
+std::vector<std::int64_t> PageMemory::moving_pages(const RestRule& rule) const {
   const ComputeControl control = read_control();
   return pages_where([&](const ComputePageState& page) {
-    return !page.is_asleep() && page.moved >= control.first_window &&
-           control.window - 1 - page.moved < windows;
+    return !page.is_asleep() && rule.is_moving(page.moved, control.first_window, control.window - 1);
   });
 }
 

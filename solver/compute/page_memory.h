@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu/buffer.h"
+#include "solver/convergence.h"
 #include "solver/field.h"
 #include "solver/gl/packed_field.h"
 
@@ -75,8 +76,8 @@ class PageMemory {
   // The virtual pages that are resident, and those of them that are quiet. Waits for the GPU.
   [[nodiscard]] std::vector<std::int64_t> resident_pages() const;
   [[nodiscard]] std::vector<std::int64_t> sleeping_pages() const;
-  // Those in which the surface moved in one of the last `windows` windows. Waits for the GPU.
-  [[nodiscard]] std::vector<std::int64_t> moving_pages(std::int32_t windows) const;
+  // Those in which the surface moved in the last full window. Waits for the GPU.
+  [[nodiscard]] std::vector<std::int64_t> moving_pages(const RestRule& rule) const;
   [[nodiscard]] const gpu::Buffer& control() const { return control_; }
   [[nodiscard]] ComputeControl read_control() const;
   void write_control(const ComputeControl& control);
