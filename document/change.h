@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "core/result.h"
@@ -43,12 +44,13 @@ struct ChangeDescription {
 };
 [[nodiscard]] std::string describe(const ChangeDescription& change);  // "evolution, 120 steps"
 
-// How far a level set has come, and what steers it there.
+// How far a level set has come, what it is there, and what steers it.
 struct Steering {
   bool begun = false;     // there is a surface
   std::int64_t step = 0;  // since the start
   solver::Parameters parameters;
-  std::string drive = "tent";  // as document::describe()
+  std::string drive = "tent";                          // as document::describe()
+  std::shared_ptr<const solver::Field> phi = nullptr;  // null: a change goes on
 
   bool operator==(const Steering&) const = default;
 };
@@ -63,10 +65,6 @@ class Change {
   virtual Status redo() = 0;
   virtual Status arrive() { return {}; }
   [[nodiscard]] virtual std::int64_t bytes() const = 0;
-
-  // phi before the change from phi after it, and the other way round, with nothing done to the case.
-  [[nodiscard]] virtual solver::Field before(solver::Field phi) const { return phi; }
-  [[nodiscard]] virtual solver::Field after(solver::Field phi) const { return phi; }
 };
 
 // A change that is still open: a stroke of the brush, a run of steps.

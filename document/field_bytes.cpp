@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace tidemark::document {
 
@@ -10,42 +9,47 @@ bool is_page_shape(Index3 shape) {
   return shape == Index3(8, 8, 8) || shape == Index3(16, 16, 1) || shape == Index3(4, 4, 4);
 }
 
-std::vector<float> pages_for_file(const solver::Field& phi) {
-  std::vector<float> pages = phi.pages;
-  const Index3 shape = phi.layout.page_shape();
+void FieldBytes::add(const solver::Field& phi) {
+  ++fields_;
+  kept_.push_back(phi.pages);
+  tables_.reserve(tables_.size() + static_cast<std::size_t>(phi.layout.page_count()));
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
-    const Index3 valid = phi.layout.valid_shape(page);
-    if (entry < 0 || valid == shape) continue;
-    float* value = pages.data() + entry * phi.layout.voxels_per_page();
-    for (std::int64_t i = 0; i < phi.layout.voxels_per_page(); ++i) {
-      const Index3 v(i % shape.x, i / shape.x % shape.y, i / (shape.x * shape.y));
-      if (v.x >= valid.x || v.y >= valid.y || v.z >= valid.z) value[i] = static_cast<float>(-phi.band);
-    }
+    const solver::Field::Kind kind = phi.pages.kind(page);
+    const std::int32_t constant = kind == solver::Field::Kind::inside ? kInsideEntry : kOutsideEntry;
+    tables_.push_back(kind == solver::Field::Kind::stored ? number_of(phi, page) : constant);
   }
-  return pages;
 }
 
-Result<solver::Field> field_from_file(const Geometry& geometry, double band, Index3 page_shape,
-                                      std::vector<std::int32_t> table, std::vector<float> pages,
-                                      const std::string& what) {
-  solver::Field phi = solver::Field::empty(geometry, band, page_shape);
-  const auto voxels = static_cast<std::size_t>(phi.layout.voxels_per_page());
-  if (table.size() != phi.table.size() || pages.size() % voxels != 0) {
+std::int32_t FieldBytes::number_of(const solver::Field& phi, std::int64_t page) {
+  const std::int64_t voxels = phi.layout.voxels_per_page();
+  const float* const values = phi.pages.values(page);
+  const auto next = static_cast<std::int32_t>(static_cast<std::int64_t>(pages_.size()) / voxels);
+  const auto [known, is_new] = numbers_.try_emplace(values, next);
+  if (!is_new) return known->second;
+  pages_.insert(pages_.end(), values, values + voxels);
+  const Index3 shape = phi.layout.page_shape();
+  const Index3 valid = phi.layout.valid_shape(page);
+  if (valid == shape) return next;
+  float* const written = pages_.data() + next * voxels;
+  for (std::int64_t i = 0; i < voxels; ++i) {
+    const Index3 v(i % shape.x, i / shape.x % shape.y, i / (shape.x * shape.y));
+    if (v.x >= valid.x || v.y >= valid.y || v.z >= valid.z) written[i] = static_cast<float>(-phi.band);
+  }
+  return next;
+}
+
+std::int64_t FieldBytes::bytes() const {
+  return static_cast<std::int64_t>(pages_.size() * sizeof(float) + tables_.size() * sizeof(std::int32_t));
+}
+
+Result<std::vector<std::shared_ptr<const solver::Field>>> fields_from_file(
+    const Geometry& geometry, double band, Index3 page_shape, std::span<const std::int32_t> tables,
+    std::span<const float> pages, const std::string& what) {
+  const solver::Field empty = solver::Field::empty(geometry, band, page_shape);
+  const std::int64_t voxels = empty.layout.voxels_per_page();
+  const auto length = static_cast<std::size_t>(empty.layout.page_count());
+  if (tables.size() % length != 0 || pages.size() % static_cast<std::size_t>(voxels) != 0) {
     return fail(ErrorKind::input, "{}: the page table or the pages have the wrong size", what);
-  }
-  std::vector<bool> named(pages.size() / voxels, false);
-  for (const std::int32_t entry : table) {
-    if (entry == solver::Field::kInside || entry == solver::Field::kOutside) continue;
-    if (entry < 0 || static_cast<std::size_t>(entry) >= named.size() ||
-        named[static_cast<std::size_t>(entry)]) {
-      return fail(ErrorKind::input, "{}: the page table names page {}, which is not there or named twice",
-                  what, entry);
-    }
-    named[static_cast<std::size_t>(entry)] = true;
-  }
-  if (!std::all_of(named.begin(), named.end(), [](bool one) { return one; })) {
-    return fail(ErrorKind::input, "{}: the page table does not name all pages", what);
   }
   const auto limit = static_cast<float>(band);
   const auto bad = std::find_if(pages.begin(), pages.end(), [&](float value) {
@@ -54,9 +58,53 @@ Result<solver::Field> field_from_file(const Geometry& geometry, double band, Ind
   if (bad != pages.end()) {
     return fail(ErrorKind::input, "{}: phi is {}, the band is {}", what, *bad, band);
   }
-  phi.table = std::move(table);
-  phi.pages = std::move(pages);
-  return phi;
+  struct Place {
+    std::int64_t page = -1;  // none yet
+    std::size_t field = 0;   // the first that has it
+  };
+  std::vector<Place> places(pages.size() / static_cast<std::size_t>(voxels));
+  std::vector<std::shared_ptr<const solver::Field>> fields;
+  for (std::size_t first = 0; first < tables.size(); first += length) {
+    auto phi = std::make_shared<solver::Field>(empty);
+    for (std::int64_t page = 0; page < empty.layout.page_count(); ++page) {
+      const std::int32_t entry = tables[first + static_cast<std::size_t>(page)];
+      if (entry == kOutsideEntry) continue;
+      if (entry == kInsideEntry) {
+        phi->pages.set_constant(page, solver::Field::Kind::inside);
+        continue;
+      }
+      if (entry < 0 || static_cast<std::size_t>(entry) >= places.size()) {
+        return fail(ErrorKind::input, "{}: the page table names page {}, which is not there", what, entry);
+      }
+      Place& place = places[static_cast<std::size_t>(entry)];
+      if (place.page < 0) {
+        place = {page, fields.size()};
+        std::copy_n(pages.data() + entry * voxels, voxels, phi->pages.store(page));
+      } else if (place.page == page) {
+        phi->pages.share(page, fields[place.field]->pages);
+      } else {
+        return fail(ErrorKind::input, "{}: the page table names page {} twice", what, entry);
+      }
+    }
+    fields.push_back(std::move(phi));
+  }
+  if (std::any_of(places.begin(), places.end(), [](const Place& place) { return place.page < 0; })) {
+    return fail(ErrorKind::input, "{}: the page table does not name all pages", what);
+  }
+  return fields;
+}
+
+Result<std::shared_ptr<const solver::Field>> field_from_file(const Geometry& geometry, double band,
+                                                             Index3 page_shape,
+                                                             std::span<const std::int32_t> table,
+                                                             std::span<const float> pages,
+                                                             const std::string& what) {
+  const solver::PageLayout layout(geometry.size, page_shape);
+  if (static_cast<std::int64_t>(table.size()) != layout.page_count())
+    return fail(ErrorKind::input, "{}: the page table or the pages have the wrong size", what);
+  auto fields = fields_from_file(geometry, band, page_shape, table, pages, what);
+  if (!fields) return pass_on(fields);
+  return std::move(fields->front());
 }
 
 }  // namespace tidemark::document

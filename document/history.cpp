@@ -223,12 +223,4 @@ std::optional<HistoryState> History::open_state() const {
   return HistoryState{last_id_, present_, open_->description(), open_->steering()};
 }
 
-solver::Field History::phi_at(std::uint64_t id, std::uint64_t from, const solver::Field& phi) const {
-  const Way there = way(from, id);
-  solver::Field field = phi;
-  for (const std::uint64_t up : there.up) field = nodes_.at(up).change->before(std::move(field));
-  for (const std::uint64_t down : there.down) field = nodes_.at(down).change->after(std::move(field));
-  return field;
-}
-
 }  // namespace tidemark::document

@@ -74,8 +74,7 @@ class History {
   [[nodiscard]] bool has(std::uint64_t id) const { return nodes_.contains(id); }
   // From its parent; null: it is the oldest state.
   [[nodiscard]] std::shared_ptr<const Change> change(std::uint64_t id) const { return nodes_.at(id).change; }
-  // phi of a state from that of another one. Both must be known.
-  [[nodiscard]] solver::Field phi_at(std::uint64_t id, std::uint64_t from, const solver::Field& phi) const;
+  [[nodiscard]] const Steering& steering(std::uint64_t id) const { return nodes_.at(id).steering; }
   // The changes between two states.
   [[nodiscard]] std::size_t distance(std::uint64_t from, std::uint64_t to) const;
 

@@ -61,7 +61,7 @@ std::vector<T> behind(const std::vector<T>& all, std::size_t first) {
   return {all.begin() + static_cast<std::ptrdiff_t>(first), all.end()};
 }
 
-Json state_json(const SavedState& state, const Base& base) {
+Json state_json(const SavedState& state, const Base& base, std::size_t phi) {
   Recipe own = state.recipe;
   const std::size_t events = common(base.recipe.events, own.events);
   own.events = behind(own.events, events);
@@ -80,7 +80,7 @@ Json state_json(const SavedState& state, const Base& base) {
             {"recipe", to_json(own)},
             {"common_points", points},
             {"curve", curve_json(behind(*state.curve.points(), points))},
-            {"phi", state.phi}};
+            {"phi", phi}};
   if (state.parent) json["parent"] = *state.parent;
   return json;
 }
@@ -88,11 +88,11 @@ Json state_json(const SavedState& state, const Base& base) {
 std::string json_text(const SessionContents& contents) {
   const SavedHistory& history = contents.history;
   Json json{{"format", kFormat}, {"version", kVersion}, {"present", history.present}};
-  const Index3 shape = history.phi.page_shape();
+  const Index3 shape = history.states[history.present].phi->layout.page_shape();
   json["page_shape"] = {shape.x, shape.y, shape.z};
   Json states = Json::array();
   for (const SavedState& state : history.states)
-    states.push_back(state_json(state, base_of(contents, state)));
+    states.push_back(state_json(state, base_of(contents, state), states.size()));
   json["states"] = std::move(states);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -144,8 +144,10 @@ Curve read_own_curve(const JsonField& field, const Curve& base) {
   return Curve(std::move(points));
 }
 
-void read_states(const JsonField& field, SessionContents& contents) {
+// Returns for each state which of the file's fields it has.
+std::vector<std::size_t> read_states(const JsonField& field, SessionContents& contents) {
   SavedHistory& history = contents.history;
+  std::vector<std::size_t> phi_of;
   const std::size_t count = field.size(SavedHistory::kMostStates);
   if (field.good() && count == 0) field.wrong("there is no state");
   std::size_t events = 0;
@@ -155,57 +157,43 @@ void read_states(const JsonField& field, SessionContents& contents) {
     SavedState state;
     if (i > 0)
       state.parent = static_cast<std::size_t>(one.at("parent").integer(0, static_cast<std::int64_t>(i) - 1));
-    if (!one.good()) return;
+    if (!one.good()) break;
     const Base base = base_of(contents, state);
     state.change = read_change(one.at("change"));
     state.recipe = read_own_recipe(one, base.recipe);
     state.curve = read_own_curve(one, base.curve);
-    state.phi = static_cast<std::size_t>(one.at("phi").integer(0, static_cast<std::int64_t>(count) - 1));
+    const std::int64_t phi = one.at("phi").integer(0, static_cast<std::int64_t>(count) - 1);
+    phi_of.push_back(static_cast<std::size_t>(phi));
     events += state.recipe.events.size();
     points += state.curve.points()->size();
     if (events > SavedHistory::kMostEvents || points > kMostPoints) one.wrong("there is more than is read");
     history.states.push_back(std::move(state));
   }
+  return phi_of;
 }
 
-bool same_values(const solver::Field& a, const solver::Field& b) {
-  if (!(a.layout == b.layout)) return false;
-  const std::int64_t voxels = a.layout.voxels_per_page();
-  for (std::size_t page = 0; page < a.table.size(); ++page) {
-    const std::int32_t one = a.table[page];
-    const std::int32_t other = b.table[page];
-    if (one < 0 || other < 0) {
-      if (one != other) return false;
-    } else if (std::memcmp(a.pages.data() + one * voxels, b.pages.data() + other * voxels,
-                           static_cast<std::size_t>(voxels) * sizeof(float)) != 0) {
-      return false;
-    }
-  }
-  return true;
-}
-
-Status read_phi(ZipReader& archive, SessionContents& contents, const std::string& what) {
+// `phi_of`: for each state, which of the file's fields it has.
+Status read_phi(ZipReader& archive, SessionContents& contents, const std::vector<std::size_t>& phi_of,
+                const std::string& what) {
   SavedHistory& history = contents.history;
   const solver::Field& present = *contents.phi;
-  history.phi = SharedPages(present.geometry, present.band, present.layout.page_shape());
   const std::size_t states = history.states.size();
-  const std::size_t length = present.table.size();
-  auto numbers = read_numbers<std::int32_t>(archive, kHistoryTables, states * length);
-  if (!numbers) return pass_on(numbers);
-  std::vector<std::vector<std::int32_t>> tables;
-  for (std::size_t i = 0; i < states; ++i) {
-    const auto first = numbers->begin() + static_cast<std::ptrdiff_t>(i * length);
-    tables.emplace_back(first, first + static_cast<std::ptrdiff_t>(length));
-  }
+  const auto length = static_cast<std::size_t>(present.layout.page_count());
+  auto tables = read_numbers<std::int32_t>(archive, kHistoryTables, states * length);
+  if (!tables) return pass_on(tables);
   const std::size_t page_bytes = static_cast<std::size_t>(present.layout.voxels_per_page()) * sizeof(float);
   const std::size_t size = archive.size(kHistoryPages);
   if (size % page_bytes != 0 || size / page_bytes > static_cast<std::size_t>(kMostPages))
     return fail(ErrorKind::input, "{}: {} bytes of pages are no pages", what, size);
   auto pages = read_numbers<float>(archive, kHistoryPages, size / sizeof(float));
   if (!pages) return pass_on(pages);
-  TIDEMARK_TRY(history.phi.assign(std::move(*pages), std::move(tables), what));
-  if (!same_values(history.phi.field(history.states[history.present].phi), present))
+  auto fields =
+      fields_from_file(present.geometry, present.band, present.layout.page_shape(), *tables, *pages, what);
+  if (!fields) return pass_on(fields);
+  for (std::size_t state = 0; state < states; ++state) history.states[state].phi = (*fields)[phi_of[state]];
+  if (!same_pages(*history.states[history.present].phi, present))
     return fail(ErrorKind::input, "{}: its present state is not the session's", what);
+  contents.phi = history.states[history.present].phi;  // with which the other states share
   return {};
 }
 
@@ -213,21 +201,17 @@ Status read_phi(ZipReader& archive, SessionContents& contents, const std::string
 
 std::vector<ZipEntry> HistoryEntries::entries() const {
   return {{kHistoryJson, std::as_bytes(std::span(json))},
-          {kHistoryTables, std::as_bytes(std::span(tables))},
-          {kHistoryPages, std::as_bytes(std::span(pages))}};
+          {kHistoryTables, std::as_bytes(std::span(phi.tables()))},
+          {kHistoryPages, std::as_bytes(std::span(phi.pages()))}};
 }
 
 HistoryEntries history_entries(const SessionContents& contents) {
   SessionContents written;  // what its states are told apart from
   written.recipe = contents.recipe;
   written.curve = contents.curve;
-  written.history = for_file(contents.history, *contents.phi);
-  HistoryEntries entries;
-  entries.json = json_text(written);
-  for (const auto& table : written.history.phi.tables())
-    entries.tables.insert(entries.tables.end(), table.begin(), table.end());
-  entries.pages = written.history.phi.pages();
-  return entries;
+  HistoryForFile file = for_file(contents.history);
+  written.history = std::move(file.history);
+  return {json_text(written), std::move(file.phi)};
 }
 
 Status read_history(ZipReader& archive, SessionContents& contents, const std::string& file) {
@@ -247,13 +231,14 @@ Status read_history(ZipReader& archive, SessionContents& contents, const std::st
   if (version.integer(0, 1 << 30) != kVersion) version.wrong("this version cannot be read");
   if (root.good() && root.at("page_shape").index(1, 64) != contents.phi->layout.page_shape())
     root.at("page_shape").wrong("is not that of phi");
-  if (root.good()) read_states(root.at("states"), contents);
+  std::vector<std::size_t> phi_of;
+  if (root.good()) phi_of = read_states(root.at("states"), contents);
   SavedHistory& history = contents.history;
   if (root.good())
     history.present = static_cast<std::size_t>(
         root.at("present").integer(0, static_cast<std::int64_t>(history.states.size()) - 1));
   if (!root.good()) return pass_on(root.status());
-  return read_phi(archive, contents, what);
+  return read_phi(archive, contents, phi_of, what);
 }
 
 }  // namespace tidemark::document

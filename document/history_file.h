@@ -22,8 +22,7 @@ inline constexpr std::string_view kHistoryPages = "history.pages";
 // The entries' bytes, as long as they are written.
 struct HistoryEntries {
   std::string json;
-  std::vector<std::int32_t> tables;
-  std::vector<float> pages;
+  FieldBytes phi;
 
   [[nodiscard]] std::vector<ZipEntry> entries() const;
 };

@@ -10,11 +10,10 @@ namespace {
 constexpr std::int64_t kBits = 8;  // a byte
 
 bool any_inside(const solver::Field& phi, std::int64_t page) {
-  const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
-  if (entry < 0) return entry == solver::Field::kInside;
+  const float* const values = phi.pages.values(page);
+  if (values == nullptr) return phi.pages.kind(page) == solver::Field::Kind::inside;
   const Index3 valid = phi.layout.valid_shape(page);
   const Index3 shape = phi.layout.page_shape();
-  const float* const values = phi.pages.data() + entry * phi.layout.voxels_per_page();
   for (std::int64_t z = 0; z < valid.z; ++z) {
     for (std::int64_t y = 0; y < valid.y; ++y) {
       const float* const row = values + (z * shape.y + y) * shape.x;
@@ -74,12 +73,10 @@ std::span<const std::uint8_t> InsideBits::row(std::int64_t j, std::int64_t k) co
 }
 
 void InsideBits::add_page(const solver::Field& phi, std::int64_t page) {
-  const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
   const Index3 first = phi.layout.first_voxel(page);
   const Index3 valid = phi.layout.valid_shape(page);
   const Index3 shape = phi.layout.page_shape();
-  const float* const values =
-      entry < 0 ? nullptr : phi.pages.data() + entry * phi.layout.voxels_per_page();  // null: all inside
+  const float* const values = phi.pages.values(page);  // null: all inside
   for (std::int64_t z = 0; z < valid.z; ++z) {
     for (std::int64_t y = 0; y < valid.y; ++y) {
       std::uint8_t* const bits = row_at(first.y + y, first.z + z);

@@ -87,15 +87,4 @@ class Labels {
   std::uint64_t revision_ = 0;
 };
 
-// Figures of the inside of a label or a surface.
-struct RegionStatistics {
-  std::int64_t voxels = 0;
-  double volume_ml = 0.0;
-  double mean = 0.0;                // of the volume's values, in its units
-  double standard_deviation = 0.0;  // of the population
-};
-RegionStatistics statistics_in(const Volume& volume, const Mask& mask);
-// Of all labels at once, by id (256 entries).
-std::vector<RegionStatistics> statistics_by_label(const Volume& volume, const Labels& labels);
-
 }  // namespace tidemark::document

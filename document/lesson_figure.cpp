@@ -116,7 +116,7 @@ Figure gradient_error(const LessonState& state, const Progress& /*progress*/) {
     ++count;
   };
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
+    if (!phi.pages.is_stored(page)) continue;
     const Index3 first = phi.layout.first_voxel(page);
     const Index3 valid = phi.layout.valid_shape(page);
     for (std::int64_t z = 0; z < valid.z; ++z) {
@@ -134,7 +134,7 @@ Figure resident_pages(const LessonState& state, const Progress& /*progress*/) {
 }
 
 Figure resident_share(const LessonState& state, const Progress& /*progress*/) {
-  return 100.0 * static_cast<double>(state.phi.resident_pages()) /
+  return 100.0 * static_cast<double>(state.phi.pages.stored()) /
          static_cast<double>(state.phi.layout.page_count());
 }
 

@@ -38,7 +38,7 @@ LevelSet::LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, Hi
   start_ = std::make_shared<const solver::Field>(
       solver::Field::empty(geometry, executor().band(), recipe_.executor.page_shape));
   put_in_place({recipe_, start_, start_});
-  history_.set_steering(steering_of(recipe_, *drive_));
+  history_.set_steering(steering_of(known_));
 }
 
 // Appends to the recipe, after the ResumeEvent if phi was put back.
@@ -191,7 +191,7 @@ Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const solver:
   auto drive = std::make_shared<const Drive>(value_of(recipe.final_drive()));
   TIDEMARK_TRY(go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve, std::move(drive)}));
   settled_events_ = recipe_.events.size();
-  history_.set_steering(steering_of(recipe_, *drive_));
+  history_.set_steering(steering_of(known_));
   return {};
 }
 

@@ -97,7 +97,9 @@ class LevelSet final : private OpenChange {
   Result<std::shared_ptr<const solver::Field>> checkpoint();
 
   // phi in another state of the history, with nothing done to this one.
-  [[nodiscard]] solver::Field phi_at(std::uint64_t state) const;
+  [[nodiscard]] const solver::Field& phi_at(std::uint64_t state) const {
+    return *history_.steering(state).phi;
+  }
   // Whether steps without an edit among them are the open change.
   [[nodiscard]] bool in_run() const { return open_ && open_->gesture == 0; }
 
@@ -141,13 +143,17 @@ class LevelSet final : private OpenChange {
         last_edit;  // a checkpoint after the last edit of the gesture: there it can be divided
   };
 
-  [[nodiscard]] static Steering steering_of(const Recipe& recipe, const Drive& drive);
+  [[nodiscard]] static Steering steering_of(const Recipe& recipe, const Drive& drive,
+                                            std::shared_ptr<const solver::Field> phi);
+  [[nodiscard]] static Steering steering_of(const Point& point) {
+    return steering_of(point.recipe, *point.drive, point.phi);
+  }
   [[nodiscard]] Point point_of(const SavedHistory& history, std::size_t state) const;
 
   LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, History& history);
 
   ChangeDescription description() const override;
-  Steering steering() const override { return steering_of(recipe_, *drive_); }
+  Steering steering() const override { return steering_of(recipe_, *drive_, nullptr); }
   std::int64_t bytes() const override;
   Status close() override;
 

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
-#include "document/field_delta.h"
 #include "document/level_set.h"
 
 namespace tidemark::document {
@@ -13,8 +11,8 @@ class LevelSetChange : public Change {
  public:
   LevelSetChange(LevelSet& level_set, const LevelSet::Point& before, const LevelSet::Point& after);
 
-  Status undo() override { return pass(before_, delta_.before(*level_set_.known_.phi)); }
-  Status redo() override { return pass(after_, delta_.after(*level_set_.known_.phi)); }
+  Status undo() override { return pass(before_); }
+  Status redo() override { return pass(after_); }
   Status arrive() override { return level_set_.arrive(); }
   [[nodiscard]] std::int64_t bytes() const override;
   // What led to the state before the change, from what led to the one after it, and the other way round.
@@ -22,23 +20,22 @@ class LevelSetChange : public Change {
   [[nodiscard]] Recipe recipe_after(const Recipe& before) const { return with_common_events(after_, before); }
   [[nodiscard]] const Curve& curve_before() const { return before_.curve; }
   [[nodiscard]] const Curve& curve_after() const { return after_.curve; }
-  [[nodiscard]] solver::Field before(solver::Field phi) const override { return delta_.before(phi); }
-  [[nodiscard]] solver::Field after(solver::Field phi) const override { return delta_.after(phi); }
 
  private:
   // The part of a recipe beyond the events that both have.
   struct Side {
     Recipe recipe;  // its events: those that are not common
+    std::shared_ptr<const solver::Field> phi;
     std::shared_ptr<const solver::Field> start;
     Curve curve;
     std::shared_ptr<const Drive> drive;
     std::size_t settled_events = 0;  // see LevelSet
   };
-  Status pass(const Side& side, solver::Field phi);
+  Status pass(const Side& side);
   [[nodiscard]] Recipe with_common_events(const Side& side, const Recipe& other) const;
 
   LevelSet& level_set_;
-  FieldDelta delta_;
+  std::int64_t phi_bytes_ = 0;  // of what the two sides do not share
   std::size_t common_events_ = 0;
   Side before_;
   Side after_;

@@ -41,8 +41,8 @@ ChangeDescription LevelSet::description() const {
 }
 
 std::int64_t LevelSet::bytes() const {
-  std::int64_t sum = memory_of(*open_->before.phi);
-  if (open_->last_edit) sum += memory_of(*open_->last_edit->phi);
+  std::int64_t sum = open_->before.phi->pages.bytes();
+  if (open_->last_edit) sum += open_->last_edit->phi->pages.bytes();
   return sum;
 }
 
@@ -76,8 +76,7 @@ void LevelSet::add_entry(ChangeKind kind, const Point& before, const Point& afte
   if (kind == ChangeKind::sweep) steps = after.recipe.steps;
   if (kind == ChangeKind::evolution || kind == ChangeKind::step_back)
     steps = std::abs(after.recipe.steps - before.recipe.steps);
-  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after),
-               steering_of(after.recipe, *after.drive));
+  history_.add({kind, steps, {}}, std::make_unique<LevelSetChange>(*this, before, after), steering_of(after));
   settled_events_ = after.recipe.events.size();
 }
 

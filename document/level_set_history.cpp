@@ -8,8 +8,9 @@
 
 namespace tidemark::document {
 
-Steering LevelSet::steering_of(const Recipe& recipe, const Drive& drive) {
-  return {recipe.begun(), recipe.steps, recipe.final_parameters(), describe(drive)};
+Steering LevelSet::steering_of(const Recipe& recipe, const Drive& drive,
+                               std::shared_ptr<const solver::Field> phi) {
+  return {recipe.begun(), recipe.steps, recipe.final_parameters(), describe(drive), std::move(phi)};
 }
 
 // One of the points on a way through the history: the executor gets the last one only.
@@ -25,15 +26,11 @@ Status LevelSet::arrive() {
   return std::exchange(on_its_way_, false) ? hand_over(known_) : Status();
 }
 
-solver::Field LevelSet::phi_at(std::uint64_t state) const {
-  const Point& last = open_ ? open_->before : known_;
-  return history_.phi_at(state, history_.last_state(), *last.phi);
-}
-
 SavedHistory LevelSet::saved_history() const {
   if (history_.open_state()) return {};
   SavedHistory saved;
   std::map<std::uint64_t, std::size_t> places;  // by number
+  std::vector<std::shared_ptr<const LevelSetChange>> from_parents;
   for (const HistoryState& state : history_.states()) {
     const auto change = std::dynamic_pointer_cast<const LevelSetChange>(history_.change(state.id));
     if (state.parent && change == nullptr) {
@@ -44,7 +41,8 @@ SavedHistory LevelSet::saved_history() const {
     SavedState& last = saved.states.emplace_back();
     if (state.parent) last.parent = places.at(*state.parent);
     last.change = state.change;
-    last.from_parent = change;
+    last.phi = state.steering.phi;
+    from_parents.push_back(change);
   }
   saved.present = places.at(history_.last_state());
   for (const Visit& visit : outwards(saved)) {
@@ -54,11 +52,11 @@ SavedHistory LevelSet::saved_history() const {
       state.recipe = recipe_;
       state.curve = curve_;
     } else if (state.parent == visit.from) {
-      const auto& change = static_cast<const LevelSetChange&>(*state.from_parent);
+      const LevelSetChange& change = *from_parents[visit.state];
       state.recipe = change.recipe_after(near.recipe);
       state.curve = change.curve_after();
     } else {
-      const auto& change = static_cast<const LevelSetChange&>(*near.from_parent);
+      const LevelSetChange& change = *from_parents[visit.from];
       state.recipe = change.recipe_before(near.recipe);
       state.curve = change.curve_before();
     }
@@ -72,7 +70,7 @@ LevelSet::Point LevelSet::point_of(const SavedHistory& history, std::size_t stat
   const SavedState& saved = history.states[state];
   Point point;
   point.recipe = saved.recipe;
-  point.phi = std::make_shared<const solver::Field>(history.phi.field(saved.phi));
+  point.phi = saved.phi;
   if (saved.recipe.steps == 0) point.start = point.phi;
   point.curve = saved.curve;
   point.drive = std::make_shared<const Drive>(value_of(saved.recipe.final_drive()));
@@ -105,7 +103,7 @@ void LevelSet::restore_history(const SavedHistory& history) {
     const SavedState& saved = history.states[i];
     HistoryState state{i, std::nullopt, saved.change, {}};
     if (saved.parent && kept[*saved.parent]) state.parent = *saved.parent;
-    state.steering = steering_of(saved.recipe, value_of(saved.recipe.final_drive()));
+    state.steering = steering_of(point_of(history, i));
     states.push_back(std::move(state));
     from_parents.push_back(std::move(changes[i]));
   }

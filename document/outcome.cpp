@@ -16,14 +16,13 @@ constexpr double kLikeTissue = 0.15;    // of the voxels beside a surface that h
 constexpr double kLeastWidening = 1.5;  // less would change nothing to speak of
 constexpr double kBeside = 0.4;  // of the band: 1 of 2.5 voxels; the holes of a ragged surface are not wide
 
-// Calls visit(voxel, phi) for the voxels of those pages whose entry in the table is `wanted`.
+// Calls visit(voxel, phi) for the voxels of those pages whose kind is `wanted`.
 template <class Wanted, class Visit>
 void visit_pages(const solver::Field& phi, const Wanted& wanted, const Visit& visit) {
-  for (std::size_t page = 0; page < phi.table.size(); ++page) {
-    if (!wanted(phi.table[page])) continue;
-    const auto number = static_cast<std::int64_t>(page);
-    const Index3 first = phi.layout.page_coordinates(number) * phi.layout.page_shape();
-    const Index3 size = phi.layout.valid_shape(number);
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    if (!wanted(phi.pages.kind(page))) continue;
+    const Index3 first = phi.layout.first_voxel(page);
+    const Index3 size = phi.layout.valid_shape(page);
     for (std::int64_t z = 0; z < size.z; ++z) {
       for (std::int64_t y = 0; y < size.y; ++y) {
         for (std::int64_t x = 0; x < size.x; ++x) {
@@ -46,7 +45,7 @@ double speed_at(const EvolvedSurface& surface, Index3 voxel) {
 bool is_attracted(const EvolvedSurface& surface) {
   bool any = false;
   visit_pages(
-      *surface.start, [&](std::int32_t entry) { return !any && entry != solver::Field::kOutside; },
+      *surface.start, [&](solver::Field::Kind kind) { return !any && kind != solver::Field::Kind::outside; },
       [&](Index3 voxel, float phi) { any = any || (phi > 0.0F && speed_at(surface, voxel) > 0.0); });
   return any;
 }
@@ -124,7 +123,7 @@ std::optional<double> wider_range(const EvolvedSurface& surface) {
     squares += difference * difference;
   };
   visit_pages(
-      surface.phi, [](std::int32_t entry) { return entry >= 0; }, look_at);
+      surface.phi, [](solver::Field::Kind kind) { return kind == solver::Field::Kind::stored; }, look_at);
   if (static_cast<double>(alike) <= kLikeTissue * static_cast<double>(beside)) return std::nullopt;
   const double spread = std::sqrt(squares / static_cast<double>(alike));
   return rounded(std::max(2.0 * spread, kLeastWidening * parameters.range));

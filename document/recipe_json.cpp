@@ -90,12 +90,10 @@ std::vector<Number> read_numbers(const JsonField& field, std::size_t count) {
 }
 
 Json to_json(const solver::Field& phi) {
-  return {{"grid", tidemark::document::to_json(phi.geometry)},
-          {"band", phi.band},
-          {"page_shape", index_json(phi.layout.page_shape())},
-          {"resident_pages", phi.resident_pages()},
-          {"table", packed_numbers(phi.table)},
-          {"pages", packed_numbers(pages_for_file(phi))}};
+  const FieldBytes bytes(phi);
+  return {{"grid", tidemark::document::to_json(phi.geometry)}, {"band", phi.band},
+          {"page_shape", index_json(phi.layout.page_shape())}, {"resident_pages", phi.pages.stored()},
+          {"table", packed_numbers(bytes.tables())},           {"pages", packed_numbers(bytes.pages())}};
 }
 
 std::shared_ptr<const solver::Field> read_field(const JsonField& field) {
@@ -110,12 +108,12 @@ std::shared_ptr<const solver::Field> read_field(const JsonField& field) {
   auto pages =
       read_numbers<float>(field.at("pages"), static_cast<std::size_t>(resident * layout.voxels_per_page()));
   if (!field.good()) return nullptr;
-  auto phi = field_from_file(geometry, band, shape, std::move(table), std::move(pages), "phi");
+  auto phi = field_from_file(geometry, band, shape, table, pages, "phi");
   if (!phi) {
     field.wrong(phi.error().message);
     return nullptr;
   }
-  return std::make_shared<const solver::Field>(std::move(*phi));
+  return std::move(*phi);
 }
 
 struct FromJson {

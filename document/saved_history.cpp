@@ -35,7 +35,6 @@ std::vector<Visit> outwards(const SavedHistory& history) {
 
 SavedHistory part_of(const SavedHistory& history, const std::vector<bool>& kept) {
   SavedHistory part;
-  part.phi = history.phi;
   std::vector<std::size_t> places(history.states.size());
   for (std::size_t i = 0; i < history.states.size(); ++i) {
     if (!kept[i]) continue;
@@ -45,7 +44,6 @@ SavedHistory part_of(const SavedHistory& history, const std::vector<bool>& kept)
       state.parent = places[*state.parent];
     } else {
       state.parent.reset();
-      state.from_parent.reset();
     }
     part.states.push_back(std::move(state));
   }
@@ -53,32 +51,29 @@ SavedHistory part_of(const SavedHistory& history, const std::vector<bool>& kept)
   return part;
 }
 
-SavedHistory for_file(const SavedHistory& history, const solver::Field& present) {
-  SavedHistory whole = history;
-  whole.phi = SharedPages(present.geometry, present.band, present.layout.page_shape());
+HistoryForFile for_file(const SavedHistory& history) {
+  const solver::Field& present = *history.states[history.present].phi;
   std::vector<bool> kept(history.states.size(), false);
+  SavedHistory whole = history;
   std::size_t events = 0;
+  FieldBytes room;
   for (const Visit& visit : outwards(history)) {
     SavedState& state = whole.states[visit.state];
-    if (visit.state != visit.from && !kept[visit.from]) continue;
+    if (!kept[visit.from] && visit.state != visit.from) continue;
     events += state.recipe.events.size();
-    if (events > SavedHistory::kMostEvents || whole.phi.size() == SavedHistory::kMostStates ||
-        whole.phi.bytes() > kMostBytes)
+    if (events > SavedHistory::kMostEvents || room.fields() == SavedHistory::kMostStates ||
+        room.bytes() > kMostBytes)
       break;
-    state.phi = whole.phi.size();
-    if (visit.state == visit.from) {
-      whole.phi.add(present, 0);
-    } else {
-      const std::size_t near = whole.states[visit.from].phi;
-      solver::Field phi = whole.phi.field(near);
-      phi = state.parent == visit.from ? state.from_parent->after(std::move(phi))
-                                       : whole.states[visit.from].from_parent->before(std::move(phi));
-      if (phi.band != present.band) continue;
-      whole.phi.add(phi, near);
-    }
+    if (state.phi->band != present.band) continue;
+    if (!(state.phi->layout == present.layout))
+      state.phi = std::make_shared<const solver::Field>(
+          state.phi->repaged(present.band, present.layout.page_shape()));
+    room.add(*state.phi);
     kept[visit.state] = true;
   }
-  return part_of(whole, kept);
+  HistoryForFile file{part_of(whole, kept), {}};
+  for (const SavedState& state : file.history.states) file.phi.add(*state.phi);
+  return file;
 }
 
 }  // namespace tidemark::document

@@ -8,8 +8,8 @@
 
 #include "document/change.h"
 #include "document/curve.h"
+#include "document/field_bytes.h"
 #include "document/recipe.h"
-#include "document/shared_pages.h"
 
 namespace tidemark::document {
 
@@ -19,8 +19,7 @@ struct SavedState {
   ChangeDescription change;           // from there
   Recipe recipe;
   Curve curve;
-  std::shared_ptr<const Change> from_parent;  // of a case; null: it is the first, or from a file
-  std::size_t phi = 0;                        // of SavedHistory::phi
+  std::shared_ptr<const solver::Field> phi;
 };
 
 // The states of a case. Empty where they are not known.
@@ -31,7 +30,6 @@ struct SavedHistory {
 
   std::vector<SavedState> states;  // parents before their children
   std::size_t present = 0;         // of them
-  SharedPages phi;                 // empty: see from_parent
 
   [[nodiscard]] bool empty() const { return states.empty(); }
 };
@@ -45,9 +43,12 @@ struct Visit {
 // A part of the history: those states and the present one, which must be connected.
 [[nodiscard]] SavedHistory part_of(const SavedHistory& history, const std::vector<bool>& kept);
 
-// With phi of all states, of which the present one's is given. More states than a session file has room for
-// are left out, the farthest from the present one first; so are states with another band, and what lies
-// behind them.
-SavedHistory for_file(const SavedHistory& history, const solver::Field& present);
+// What of a history a session file has room for. The states farthest from the present one are left out first;
+// so are those with another band than that one, and what lies behind them.
+struct HistoryForFile {
+  SavedHistory history;
+  FieldBytes phi;  // of its states, in their order; pages have the shape of the present one's
+};
+HistoryForFile for_file(const SavedHistory& history);
 
 }  // namespace tidemark::document

@@ -64,9 +64,11 @@ double surface_band(const Geometry& geometry) {
 Result<imaging::Mesh> mesh_of(const solver::Field& phi) {
   constexpr Index3 kShape(imaging::PhiPages::kSide);
   if (phi.layout.page_shape() != kShape) return mesh_of(phi.repaged(phi.band, kShape));
-  static_assert(imaging::PhiPages::kInside == solver::Field::kInside);
-  return imaging::extract_surface(
-      imaging::PhiPages{phi.geometry, phi.table, phi.pages, static_cast<float>(phi.band)});
+  imaging::PhiPages pages{phi.geometry, {}};
+  pages.pages.reserve(static_cast<std::size_t>(phi.layout.page_count()));
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page)
+    pages.pages.push_back({phi.pages.values(page), phi.constant(page)});
+  return imaging::extract_surface(pages);
 }
 
 Result<imaging::Mesh> mesh_of(const Mask& mask) {

@@ -65,9 +65,7 @@ Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
   restored = document.labels().assign(contents.labels, contents.label_voxels ? *contents.label_voxels : none);
   if (!restored) return pass_on(restored);
   document.view_state = contents.view_state;
-  // Of a case that was not read from a file, phi of the states is still in its changes.
-  if (const SavedHistory& history = contents.history; !history.empty())
-    document.level_set().restore_history(history.phi.size() > 0 ? history : for_file(history, *contents.phi));
+  if (!contents.history.empty()) document.level_set().restore_history(contents.history);
   document.mark_saved();
   return made;
 }

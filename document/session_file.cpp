@@ -199,7 +199,7 @@ Json session_json(const SessionContents& contents, const std::filesystem::path& 
   const Index3 shape = contents.phi->layout.page_shape();
   json["phi"] = {{"band", contents.phi->band},
                  {"page_shape", {shape.x, shape.y, shape.z}},
-                 {"resident_pages", contents.phi->resident_pages()}};
+                 {"resident_pages", contents.phi->pages.stored()}};
   json["labels"] = labels_json(contents.labels);
   json["curve"] = curve_json(*contents.curve.points());
   json["view_state"] = contents.view_state;
@@ -230,9 +230,7 @@ Result<std::shared_ptr<const solver::Field>> read_phi(ZipReader& archive, const 
   if (!table) return pass_on(table);
   auto pages = read_numbers<float>(archive, kPages, resident * layout.voxels_per_page());
   if (!pages) return pass_on(pages);
-  auto phi = field_from_file(geometry, band, shape, std::move(*table), std::move(*pages), file + ": phi");
-  if (!phi) return pass_on(phi);
-  return std::make_shared<const solver::Field>(std::move(*phi));
+  return field_from_file(geometry, band, shape, *table, *pages, file + ": phi");
 }
 
 Status read_label_voxels(ZipReader& archive, SessionContents& contents, const std::string& file) {
@@ -293,10 +291,10 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
   if (const auto again = JsonDocument::parse(json, file.string(), json_limits(json.size())); !again) {
     return fail(ErrorKind::write, "{}", again.error().message);
   }
-  const std::vector<float> pages = pages_for_file(*contents.phi);
+  const FieldBytes phi(*contents.phi);
   std::vector<ZipEntry> entries{{kJson, std::as_bytes(std::span(json))},
-                                {kTable, std::as_bytes(std::span(contents.phi->table))},
-                                {kPages, std::as_bytes(std::span(pages))}};
+                                {kTable, std::as_bytes(std::span(phi.tables()))},
+                                {kPages, std::as_bytes(std::span(phi.pages()))}};
   if (contents.label_voxels) entries.push_back({kLabels, std::as_bytes(std::span(*contents.label_voxels))});
   HistoryEntries history;
   if (what == InFile::all && !contents.history.empty()) {

@@ -37,25 +37,13 @@ std::shared_ptr<const HistoryRows> CaseHistory::rows(const document::Case& docum
   return rows_;
 }
 
-solver::Field CaseHistory::phi_of(std::uint64_t state, const document::Case& document) const {
-  const document::History& history = document.history();
-  if (last_ && history.has(last_->state) &&
-      history.distance(last_->state, state) < history.distance(history.last_state(), state))
-    return history.phi_at(state, last_->state, last_->phi);
-  return document.level_set().phi_at(state);
-}
-
 bool CaseHistory::measure_next(const document::Case& document) {
   const auto known = rows(document);
   const auto row = std::find_if(known->rbegin(), known->rend(), lacks_figures);
-  if (row == known->rend()) {
-    last_.reset();
-    return false;
-  }
-  const std::uint64_t state = row->state.id;
-  last_ = Measured{state, phi_of(state, document)};
-  figures_[state] = {solver::measure(last_->phi).volume_ml,
-                     picture_of_state(*document.volume(), last_->phi, window_, kPicturePixels)};
+  if (row == known->rend()) return false;
+  const solver::Field& phi = *row->state.steering.phi;
+  figures_[row->state.id] = {solver::measure(phi).volume_ml,
+                             picture_of_state(*document.volume(), phi, window_, kPicturePixels)};
   follow(document.history());
   return true;
 }

@@ -40,15 +40,7 @@ class CaseHistory {
 
  private:
   void follow(const document::History& history);
-  [[nodiscard]] solver::Field phi_of(std::uint64_t state, const document::Case& document) const;
 
-  // phi where figures were last measured, from which the next one may be nearer than from the present state.
-  struct Measured {
-    std::uint64_t state = 0;
-    solver::Field phi;
-  };
-
-  std::optional<Measured> last_;  // while figures are missing
   WindowLevel window_;
   std::map<std::uint64_t, StateFigures> figures_;
   std::shared_ptr<const HistoryRows> rows_;

@@ -47,7 +47,7 @@ Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, boo
   if (!moving) return pass_on(moving);
   phi_ = *phi;
   moving_pages_ = std::make_shared<const std::vector<std::int64_t>>(std::move(*moving));
-  surface_ = tidemark::solver::measure(*phi_);
+  surface_ = surface_meter_.measure(*phi_);
   if (overlap_) dice_ = overlap_->dice(*phi_);
   const auto ended = Clock::now();
   due_at_ = ended + std::clamp<Clock::duration>(kRest * (ended - began), kShortestRest, kLongestRest);
@@ -69,10 +69,13 @@ Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, boo
   outcome_ = document::outcome_of(evolved);
   if (thoroughly) {
     wider_range_ = wider_range(evolved);
-    inside_ = document::statistics_in(*document.volume(), phi_->mask());
-    const auto all = document::statistics_by_label(*document.volume(), document.labels());
+    inside_ = inside_meter_.measure(document.volume(), *phi_);
+    if (label_revision_ != document.labels().revision() || by_label_.empty()) {
+      by_label_ = document::statistics_by_label(*document.volume(), document.labels());
+      label_revision_ = document.labels().revision();
+    }
     labels_.clear();
-    for (const document::Label& label : document.labels().list()) labels_.push_back(all[label.id]);
+    for (const document::Label& label : document.labels().list()) labels_.push_back(by_label_[label.id]);
   }
   thorough_ = thoroughly;
   return {};

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "document/case.h"
+#include "document/region_statistics.h"
 #include "engine/case_state.h"
 #include "engine/truth_overlap.h"
 
@@ -64,8 +65,12 @@ class CaseMeter {
   bool thorough_ = false;
   std::shared_ptr<const solver::Field> phi_;
   std::shared_ptr<const std::vector<std::int64_t>> moving_pages_;
+  solver::SurfaceMeter surface_meter_;
   solver::SurfaceStatistics surface_;
+  document::InsideStatistics inside_meter_;
   document::RegionStatistics inside_;
+  std::vector<document::RegionStatistics> by_label_;  // by id, as of label_revision_
+  std::uint64_t label_revision_ = 0;
   std::vector<document::RegionStatistics> labels_;
   std::optional<TruthOverlap> overlap_;  // where there is a truth
   std::optional<double> dice_;

@@ -18,9 +18,6 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
     : engine_(engine),
       study_(std::move(study)),
       truth_(study_->truth),
-      comparison_([this](std::uint64_t state, std::function<void(StateComparison::Phi)> answer) {
-        phi_of(state, std::move(answer));
-      }),
       weak_receiver_(WeakReceiver::of(this)),
       sweep_(std::make_unique<CaseSweep>(*this)),
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
@@ -249,21 +246,6 @@ void CaseProxy::redo() {
 
 void CaseProxy::go_to(std::uint64_t state) {
   post([state](CaseRunner& runner, const Progress&) { return runner.go_to(state); });
-}
-
-// Null where the history has forgotten the state, or there is no room for another phi.
-void CaseProxy::phi_of(std::uint64_t state, std::function<void(StateComparison::Phi)> answer) {
-  post([state, answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner& runner,
-                                                                           const Progress&) -> Status {
-    const document::Case& document = runner.document();
-    const auto found = without_exceptions([&]() -> Result<StateComparison::Phi> {
-      if (!document.history().has(state)) return StateComparison::Phi();
-      return std::make_shared<const solver::Field>(document.level_set().phi_at(state));
-    });
-    weak_receiver->send([answer, phi = found ? *found : StateComparison::Phi()] { answer(phi); });
-    if (!found) return pass_on(found);
-    return {};
-  });
 }
 
 void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,

@@ -177,7 +177,6 @@ class CaseProxy : public QObject {
   using Command = std::function<Status(CaseRunner&, const Progress&)>;
   void post(Command command);
   void take(CaseState state);
-  void phi_of(std::uint64_t state, std::function<void(StateComparison::Phi)> answer);
   void use_images_of_display();
   void show_images_of_drive();
   void set_playing(bool playing);

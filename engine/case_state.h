@@ -12,6 +12,7 @@
 #include "document/labels.h"
 #include "document/leak.h"
 #include "document/outcome.h"
+#include "document/region_statistics.h"
 #include "engine/case_history.h"
 #include "solver/balance.h"
 #include "solver/executor.h"

@@ -1,33 +1,24 @@
 #include "engine/state_comparison.h"
 
-#include <utility>
-
 #include "core/without_exceptions.h"
 
 namespace tidemark::engine {
 
-StateComparison::StateComparison(AskForPhi ask, QObject* parent)
-    : QObject(parent),
-      ask_(std::move(ask)),
-      question_(this, &StateComparison::agreement_of, [this] { emit changed(); }) {}
+StateComparison::StateComparison(QObject* parent)
+    : QObject(parent), question_(this, &StateComparison::agreement_of, [this] { emit changed(); }) {}
 
 void StateComparison::choose(std::optional<std::uint64_t> state) {
   if (state == chosen_) return;
-  chosen_ = state;
-  phi_.reset();
+  const HistoryRow* row = state && rows_ ? find_row(*rows_, *state) : nullptr;
+  chosen_ = row == nullptr ? std::nullopt : state;
+  phi_ = row == nullptr ? nullptr : row->state.steering.phi;
   question_.forget();
   emit changed();
-  if (!chosen_) return;
-  ask_(*chosen_, [this, asked = *chosen_](Phi phi) {
-    if (chosen_ != asked) return;
-    if (!phi) return choose(std::nullopt);
-    phi_ = std::move(phi);
-    emit changed();
-    compare();
-  });
+  compare();
 }
 
 void StateComparison::follow(const CaseState& state) {
+  rows_ = state.history;
   if (chosen_ && !find_row(*state.history, *chosen_)) return choose(std::nullopt);  // it was forgotten
   if (state.playing) return;
   present_ = state.phi;

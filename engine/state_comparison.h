@@ -3,7 +3,6 @@
 
 #include <QObject>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -19,18 +18,16 @@ class StateComparison : public QObject {
  public:
   using Phi = std::shared_ptr<const solver::Field>;
   using Agreement = std::optional<solver::SurfaceAgreement>;
-  // Asks for phi of a state; the answer comes later, null when there is none any more, or never.
-  using AskForPhi = std::function<void(std::uint64_t state, std::function<void(Phi)> answer)>;
 
-  explicit StateComparison(AskForPhi ask, QObject* parent = nullptr);
+  explicit StateComparison(QObject* parent = nullptr);
 
-  // Unset: nothing is compared any more.
+  // A state of the case as it was last followed. Unset: nothing is compared any more.
   void choose(std::optional<std::uint64_t> state);
   // The case as it is now.
   void follow(const CaseState& state);
 
   [[nodiscard]] std::optional<std::uint64_t> state() const { return chosen_; }
-  // Of the chosen state; null until it is there.
+  // Of the chosen state; null: there is none.
   [[nodiscard]] const Phi& phi() const { return phi_; }
   // With the present surface, as it was when it last rested; unset until it is known.
   [[nodiscard]] const Agreement& agreement() const;
@@ -48,9 +45,9 @@ class StateComparison : public QObject {
   static Agreement agreement_of(const Question& question, const std::stop_token& stop);
   void compare();
 
-  AskForPhi ask_;
   std::optional<std::uint64_t> chosen_;
   Phi phi_;
+  std::shared_ptr<const HistoryRows> rows_;
   Phi present_;  // the newest
   NewestQuestion<Question, Agreement> question_;
 };

@@ -19,9 +19,8 @@ template <class Visit>
 void for_each_inside(const solver::Field& phi, const Visit& visit) {
   const solver::PageLayout& layout = phi.layout;
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
-    if (entry == solver::Field::kOutside) continue;
-    const float* values = entry < 0 ? nullptr : phi.pages.data() + entry * layout.voxels_per_page();
+    if (phi.pages.kind(page) == solver::Field::Kind::outside) continue;
+    const float* const values = phi.pages.values(page);
     solver::for_each_row(phi.geometry, layout, page,
                          [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
                            const Index3 first = phi.geometry.voxel_at(offset);

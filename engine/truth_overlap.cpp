@@ -4,14 +4,16 @@
 
 namespace tidemark::engine {
 
-void TruthOverlap::count_pages(const solver::PageLayout& layout) {
-  if (layout_ == layout) return;
-  layout_ = layout;
-  in_page_.assign(static_cast<std::size_t>(layout.page_count()), 0);
+// Counts the truth for these pages; nothing is inside yet.
+void TruthOverlap::begin(const solver::Field& phi) {
+  layout_ = phi.layout;
+  counted_ = solver::Field::empty(phi.geometry, phi.band, phi.layout.page_shape()).pages;
+  counts_ = {};
+  in_page_.assign(static_cast<std::size_t>(layout_.page_count()), 0);
   in_truth_ = 0;
-  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+  for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
     std::int64_t& count = in_page_[static_cast<std::size_t>(page)];
-    solver::for_each_row(truth_->geometry, layout, page,
+    solver::for_each_row(truth_->geometry, layout_, page,
                          [&](std::int64_t offset, std::int64_t length, std::int64_t) {
                            for (std::int64_t i = 0; i < length; ++i)
                              count += truth_->voxels[static_cast<std::size_t>(offset + i)] != 0 ? 1 : 0;
@@ -20,32 +22,37 @@ void TruthOverlap::count_pages(const solver::PageLayout& layout) {
   }
 }
 
-double TruthOverlap::dice(const solver::Field& phi) {
-  count_pages(phi.layout);
-  std::int64_t inside = 0;
-  std::int64_t common = 0;
-  for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
-    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
-    if (entry == solver::Field::kOutside) continue;
-    if (entry == solver::Field::kInside) {
-      const Index3 valid = layout_.valid_shape(page);
-      inside += valid.x * valid.y * valid.z;
-      common += in_page_[static_cast<std::size_t>(page)];
-      continue;
-    }
-    const float* values = phi.pages.data() + entry * layout_.voxels_per_page();
-    solver::for_each_row(phi.geometry, layout_, page,
-                         [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
-                           const std::uint8_t* truth = truth_->voxels.data() + offset;
-                           for (std::int64_t i = 0; i < length; ++i) {
-                             const std::int64_t is_inside = values[index + i] > 0.0F ? 1 : 0;
-                             inside += is_inside;
-                             common += truth[i] != 0 ? is_inside : 0;
-                           }
-                         });
+TruthOverlap::Counts TruthOverlap::count(const solver::SharedPages& pages, std::int64_t page) const {
+  const float* const values = pages.values(page);
+  if (values == nullptr) {
+    if (pages.kind(page) == solver::SharedPages::Kind::outside) return {};
+    const Index3 valid = layout_.valid_shape(page);
+    return {valid.x * valid.y * valid.z, in_page_[static_cast<std::size_t>(page)]};
   }
-  const std::int64_t both = inside + in_truth_;
-  return both == 0 ? 1.0 : 2.0 * static_cast<double>(common) / static_cast<double>(both);
+  Counts counts;
+  solver::for_each_row(truth_->geometry, layout_, page,
+                       [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+                         const std::uint8_t* truth = truth_->voxels.data() + offset;
+                         for (std::int64_t i = 0; i < length; ++i) {
+                           const std::int64_t is_inside = values[index + i] > 0.0F ? 1 : 0;
+                           counts.inside += is_inside;
+                           counts.common += truth[i] != 0 ? is_inside : 0;
+                         }
+                       });
+  return counts;
+}
+
+double TruthOverlap::dice(const solver::Field& phi) {
+  if (layout_ != phi.layout) begin(phi);
+  solver::SharedPages::for_each_difference(counted_, phi.pages, [&](std::int64_t page) {
+    const Counts before = count(counted_, page);
+    const Counts now = count(phi.pages, page);
+    counts_.inside += now.inside - before.inside;
+    counts_.common += now.common - before.common;
+  });
+  counted_ = phi.pages;
+  const std::int64_t both = counts_.inside + in_truth_;
+  return both == 0 ? 1.0 : 2.0 * static_cast<double>(counts_.common) / static_cast<double>(both);
 }
 
 }  // namespace tidemark::engine

@@ -12,18 +12,25 @@ class TruthOverlap {
  public:
   explicit TruthOverlap(std::shared_ptr<const Mask> truth) : truth_(std::move(truth)) {}
 
-  // 2 |A and B| / (|A| + |B|) of what is inside phi and the truth; 1 when both are empty. Voxels are looked
-  // at in resident pages alone: of the other pages it is known how much of the truth they hold. phi must be
-  // on the truth's grid.
+  // 2 |A and B| / (|A| + |B|) of what is inside phi and the truth; 1 when both are empty. phi must be on the
+  // truth's grid. Voxels are looked at in those stored pages alone that it does not share with the phi
+  // before; of pages that are inside throughout it is known how much of the truth they hold.
   double dice(const solver::Field& phi);
 
  private:
-  void count_pages(const solver::PageLayout& layout);
+  struct Counts {
+    std::int64_t inside = 0;  // voxels
+    std::int64_t common = 0;  // of them in the truth
+  };
+  void begin(const solver::Field& phi);
+  [[nodiscard]] Counts count(const solver::SharedPages& pages, std::int64_t page) const;
 
   std::shared_ptr<const Mask> truth_;
   solver::PageLayout layout_;          // as of the next two
   std::vector<std::int64_t> in_page_;  // voxels of the truth
   std::int64_t in_truth_ = 0;
+  solver::SharedPages counted_;  // the last phi, and what it has
+  Counts counts_;
 };
 
 }  // namespace tidemark::engine

@@ -117,10 +117,10 @@ glm::dvec3 middle_of(const Mask& mask) {
 Box box_around(const solver::Field& phi) {
   glm::dvec3 low(0.0);
   glm::dvec3 high(phi.geometry.size - Index3(1));
-  if (phi.resident_pages() > 0) {
+  if (phi.pages.stored() > 0) {
     std::swap(low, high);
     for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-      if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
+      if (!phi.pages.is_stored(page)) continue;
       const Index3 first = phi.layout.first_voxel(page);
       low = glm::min(low, glm::dvec3(first));
       high = glm::max(high, glm::dvec3(first + phi.layout.valid_shape(page) - Index3(1)));

@@ -47,7 +47,7 @@ class PageRefiner {
     const Index3 valid = fine_.layout.valid_shape(page);
     for (int axis = 0; axis < 3; ++axis) place(axis, first[axis], valid[axis]);
     if (const auto constant = constant_around()) {
-      fine_.table[static_cast<std::size_t>(page)] = *constant;
+      fine_.pages.set_constant(page, *constant);
       return;
     }
     gather();
@@ -68,19 +68,19 @@ class PageRefiner {
     size_[axis] = places.back().high - places.front().low + 1;
   }
 
-  // What stands for the page where no resident page of the coarse phi reaches it.
-  [[nodiscard]] std::optional<std::int32_t> constant_around() const {
+  // What stands for the page where no stored page of the coarse phi reaches it.
+  [[nodiscard]] std::optional<Field::Kind> constant_around() const {
     const Index3 shape = coarse_.layout.page_shape();
     const Index3 low = from_ / shape;
     const Index3 high = (from_ + size_ - Index3(1)) / shape;
-    const std::int32_t one = entry_at(low);
-    if (one >= 0) return std::nullopt;
+    const Field::Kind one = kind_at(low);
+    if (one == Field::Kind::stored) return std::nullopt;
     bool same = true;
-    for_each_voxel(low, high - low + Index3(1), [&](Index3 page) { same = same && entry_at(page) == one; });
+    for_each_voxel(low, high - low + Index3(1), [&](Index3 page) { same = same && kind_at(page) == one; });
     return same ? std::optional(one) : std::nullopt;
   }
-  [[nodiscard]] std::int32_t entry_at(Index3 page) const {
-    return coarse_.table[static_cast<std::size_t>(coarse_.layout.page_number(page))];
+  [[nodiscard]] Field::Kind kind_at(Index3 page) const {
+    return coarse_.pages.kind(coarse_.layout.page_number(page));
   }
 
   void gather() {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/out_of_memory.h"
 #include "core/thread_pool.h"
 #include "solver/box_distances.h"
 
@@ -88,11 +87,6 @@ class PageDistances {
   void run() {
     near_ = with_surroundings(contents_of(inside_, layout_, threads_), layout_,
                               rounded_up(reach_.voxels, layout_.page_shape()));
-    // Only what is used of it becomes memory; growing would copy all pages.
-    const auto nearby = std::count(near_.begin(), near_.end(), kHoldsBoth);
-    const std::int64_t values = nearby * layout_.voxels_per_page();
-    asking_for(values * std::int64_t{sizeof(float)},
-               [&] { phi_.pages.reserve(static_cast<std::size_t>(values)); });
     for (std::int64_t layer = 0; layer < layout_.pages().z; layer += block_.z) make_layer(layer);
   }
 
@@ -172,7 +166,7 @@ class PageDistances {
       if (is_near(page)) {
         phi_.store_page(page, {values_of(page), length});
       } else if (near_[static_cast<std::size_t>(page)] == kHoldsInside) {
-        phi_.table[static_cast<std::size_t>(page)] = Field::kInside;
+        phi_.pages.set_constant(page, Field::Kind::inside);
       }
     }
   }

@@ -1,6 +1,7 @@
 #include "solver/field.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "core/out_of_memory.h"
 #include "solver/paging/page_rows.h"
@@ -16,24 +17,12 @@ std::vector<Value> zeros(std::int64_t count) {
 
 }  // namespace
 
-float Field::at(Index3 voxel) const {
-  const VirtualAddress address = layout.translate(voxel);
-  const std::int32_t entry = table[static_cast<std::size_t>(address.page)];
-  if (entry < 0) return static_cast<float>(entry == kInside ? band : -band);
-  return pages[static_cast<std::size_t>(entry * layout.voxels_per_page() + address.offset)];
-}
-
-std::int64_t Field::resident_pages() const {
-  return static_cast<std::int64_t>(pages.size()) / layout.voxels_per_page();
-}
-
 bool Field::has_inside() const {
   bool found = false;
   for (std::int64_t page = 0; page < layout.page_count() && !found; ++page) {
-    const std::int32_t entry = table[static_cast<std::size_t>(page)];
-    found = entry == kInside;
-    if (entry < 0) continue;
-    const float* values = pages.data() + entry * layout.voxels_per_page();
+    const float* const values = pages.values(page);
+    found = pages.kind(page) == Kind::inside;
+    if (values == nullptr) continue;
     for_each_row(geometry, layout, page, [&](std::int64_t, std::int64_t length, std::int64_t index) {
       const float* row = values + index;
       found = found || std::any_of(row, row + length, [](float phi) { return phi > 0.0F; });
@@ -56,14 +45,13 @@ Status Field::check_fits(const Geometry& grid, double wanted_band) const {
 std::vector<float> Field::dense() const {
   std::vector<float> values = zeros<float>(geometry.voxel_count());
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-    const std::int32_t entry = table[static_cast<std::size_t>(page)];
-    const float constant = static_cast<float>(entry == kInside ? band : -band);
+    const float* const stored = pages.values(page);
     for_each_row(geometry, layout, page, [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
       float* row = values.data() + offset;
-      if (entry < 0) {
-        std::fill_n(row, length, constant);
+      if (stored == nullptr) {
+        std::fill_n(row, length, constant(page));
       } else {
-        std::copy_n(pages.data() + entry * layout.voxels_per_page() + index, length, row);
+        std::copy_n(stored + index, length, row);
       }
     });
   }
@@ -81,15 +69,15 @@ Volume Field::to_volume() const {
 Mask Field::mask() const {
   Mask result{geometry, zeros<std::uint8_t>(geometry.voxel_count())};
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-    const std::int32_t entry = table[static_cast<std::size_t>(page)];
-    if (entry == kOutside) continue;
+    if (pages.kind(page) == Kind::outside) continue;
+    const float* const stored = pages.values(page);
     for_each_row(geometry, layout, page, [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
       std::uint8_t* row = result.voxels.data() + offset;
-      if (entry == kInside) {
+      if (stored == nullptr) {
         std::fill_n(row, length, std::uint8_t{1});
       } else {
-        const float* values = pages.data() + entry * layout.voxels_per_page() + index;
-        std::transform(values, values + length, row, [](float phi) { return std::uint8_t(phi > 0.0F); });
+        std::transform(stored + index, stored + index + length, row,
+                       [](float phi) { return std::uint8_t(phi > 0.0F); });
       }
     });
   }
@@ -101,7 +89,7 @@ Field Field::empty(const Geometry& geometry, double band, Index3 page_shape) {
   field.geometry = geometry;
   field.band = band;
   field.layout = PageLayout(geometry.size, page_shape);
-  field.table.assign(static_cast<std::size_t>(field.layout.page_count()), kOutside);
+  field.pages = SharedPages(field.layout.page_count(), field.layout.voxels_per_page());
   return field;
 }
 
@@ -131,13 +119,26 @@ void Field::store_page(std::int64_t page, std::span<const float> values) {
     inside = inside && std::all_of(row, row + length, [limit](float phi) { return phi == limit; });
     outside = outside && std::all_of(row, row + length, [limit](float phi) { return phi == -limit; });
   });
-  std::int32_t& entry = table[static_cast<std::size_t>(page)];
-  if (inside || outside) {
-    entry = inside ? kInside : kOutside;
-    return;
-  }
-  entry = static_cast<std::int32_t>(resident_pages());
-  pages.insert(pages.end(), values.begin(), values.end());
+  if (inside || outside) return pages.set_constant(page, inside ? Kind::inside : Kind::outside);
+  std::copy(values.begin(), values.end(), pages.store(page));
+}
+
+void Field::update_page(std::int64_t page, const float* values) {
+  const auto bytes = static_cast<std::size_t>(layout.voxels_per_page()) * sizeof(float);
+  const float* const there = pages.values(page);
+  if (there == nullptr || std::memcmp(there, values, bytes) != 0)
+    std::memcpy(pages.store(page), values, bytes);
+}
+
+bool same_pages(const Field& a, const Field& b) {
+  if (!(a.layout == b.layout)) return false;
+  bool same = true;
+  const auto bytes = static_cast<std::size_t>(a.layout.voxels_per_page()) * sizeof(float);
+  SharedPages::for_each_difference(a.pages, b.pages, [&](std::int64_t page) {
+    same = same && a.pages.is_stored(page) && b.pages.is_stored(page) &&
+           std::memcmp(a.pages.values(page), b.pages.values(page), bytes) == 0;
+  });
+  return same;
 }
 
 }  // namespace tidemark::solver

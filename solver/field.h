@@ -7,23 +7,28 @@
 
 #include "core/volume.h"
 #include "solver/paging/page_layout.h"
+#include "solver/paging/shared_pages.h"
 
 namespace tidemark::solver {
 
 // phi > 0 inside, in units of the smallest voxel spacing, clamped to [-band, band].
 struct Field {
-  // A table entry that is not the index of a page: the whole page is +band or -band.
-  static constexpr std::int32_t kOutside = -1;
-  static constexpr std::int32_t kInside = -2;
+  using Kind = SharedPages::Kind;  // a page that is not stored is +band or -band throughout
 
   Geometry geometry;
   double band = 2.5;  // W
   PageLayout layout;
-  std::vector<std::int32_t> table;  // a virtual page's index in `pages`, or kOutside or kInside
-  std::vector<float> pages;         // layout.voxels_per_page() values a page; padding holds anything
+  SharedPages pages;  // of layout; padding holds anything
 
-  [[nodiscard]] float at(Index3 voxel) const;
-  [[nodiscard]] std::int64_t resident_pages() const;
+  [[nodiscard]] float at(Index3 voxel) const {
+    const VirtualAddress address = layout.translate(voxel);
+    const float* const values = pages.values(address.page);
+    return values == nullptr ? constant(address.page) : values[address.offset];
+  }
+  // Of a page that is not stored: +band or -band.
+  [[nodiscard]] float constant(std::int64_t page) const {
+    return static_cast<float>(pages.kind(page) == Kind::inside ? band : -band);
+  }
   [[nodiscard]] bool has_inside() const;  // phi > 0 in a voxel
 
   [[nodiscard]] std::vector<float> dense() const;  // in voxel order
@@ -42,9 +47,14 @@ struct Field {
   // Values in voxel order; pages that are +band or -band throughout are not stored.
   static Field from_dense(const Geometry& geometry, std::span<const float> values, double band,
                           Index3 page_shape = kDefaultPageShape);
-  // What a page is, layout.voxels_per_page() values in [-band, band]. A resident page gets its place after
-  // all that are there; one that is +band or -band throughout is not stored.
+  // What a page is, layout.voxels_per_page() values in [-band, band]. One that is +band or -band throughout
+  // is not stored.
   void store_page(std::int64_t page, std::span<const float> values);
+  // A stored page. Where it holds these values already, to the last bit, it stays where it lies.
+  void update_page(std::int64_t page, const float* values);
 };
+
+// Whether they have the same pages to the last bit, padding included.
+[[nodiscard]] bool same_pages(const Field& a, const Field& b);
 
 }  // namespace tidemark::solver

@@ -28,10 +28,8 @@ Status for_each_page(const Executor& executor, const Visit& visit) {
   const auto phi = executor.snapshot();
   if (!phi) return pass_on(phi);
   for (std::int64_t page = 0; page < phi->layout.page_count(); ++page) {
-    const std::int32_t entry = phi->table[static_cast<std::size_t>(page)];
-    if (entry == Field::kOutside) continue;
-    visit(phi->layout.first_voxel(page), phi->layout.valid_shape(page),
-          entry == Field::kInside ? nullptr : phi->pages.data() + entry * phi->layout.voxels_per_page(),
+    if (phi->pages.kind(page) == Field::Kind::outside) continue;
+    visit(phi->layout.first_voxel(page), phi->layout.valid_shape(page), phi->pages.values(page),
           phi->layout.page_shape());
   }
   return {};

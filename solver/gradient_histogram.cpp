@@ -83,7 +83,7 @@ Result<GradientHistogram> gradient_histogram(const Field& phi, double highest, c
   Counting band(highest);
   Gradients gradients(phi);
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
+    if (!phi.pages.is_stored(page)) continue;
     if (progress.cancelled()) return cancelled_error();
     gradients.gather(page);
     const Index3 valid = phi.layout.valid_shape(page);

@@ -78,10 +78,11 @@ class PageWithApron {
       for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
           const Index3 at = coordinates_ + Index3(x, y, z);
-          entries_[entry_index(x, y, z)] =
-              phi_.layout.contains_page(at)
-                  ? phi_.table[static_cast<std::size_t>(phi_.layout.page_number(at))]
-                  : Field::kOutside;  // place() leads to none of these
+          if (!phi_.layout.contains_page(at)) continue;  // place() leads to none of these
+          const std::int64_t page = phi_.layout.page_number(at);
+          const std::size_t entry = entry_index(x, y, z);
+          stored_[entry] = phi_.pages.values(page);
+          if (stored_[entry] == nullptr) constants_[entry] = phi_.constant(page);
         }
       }
     }
@@ -93,16 +94,13 @@ class PageWithApron {
 
   // Null in a page that is not stored.
   [[nodiscard]] const float* first_of_row(Place x, Place y, Place z) const {
-    const std::int32_t entry = entries_[entry_index(x.page, y.page, z.page)];
-    if (entry < 0) return nullptr;
-    return phi_.pages.data() + entry * phi_.layout.voxels_per_page() +
-           (z.voxel * shape_.y + y.voxel) * shape_.x;
+    const float* const page = stored_[entry_index(x.page, y.page, z.page)];
+    return page == nullptr ? nullptr : page + (z.voxel * shape_.y + y.voxel) * shape_.x;
   }
 
   [[nodiscard]] float value(Place x, Place y, Place z) const {
     if (const float* const row = first_of_row(x, y, z)) return row[x.voxel];
-    const bool inside = entries_[entry_index(x.page, y.page, z.page)] == Field::kInside;
-    return static_cast<float>(inside ? phi_.band : -phi_.band);
+    return constants_[entry_index(x.page, y.page, z.page)];
   }
 
   [[nodiscard]] std::int64_t index(Index3 local) const {
@@ -116,7 +114,8 @@ class PageWithApron {
   std::vector<float> values_;
   Index3 coordinates_{0};
   Index3 valid_{0};
-  std::array<std::int32_t, 27> entries_{};
+  std::array<const float*, 27> stored_{};  // null: constants_ has the page's value
+  std::array<float, 27> constants_{};
 };
 
 }  // namespace tidemark::solver

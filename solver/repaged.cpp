@@ -25,7 +25,7 @@ class Repager {
     const Index3 first_source = first / shape;
     const Index3 end_source = (end + shape - Index3(1)) / shape;
     if (const auto constant = constant_in(first_source, end_source)) {
-      to_.table[static_cast<std::size_t>(page)] = *constant;
+      to_.pages.set_constant(page, *constant);
       return;
     }
     std::fill(values_.begin(), values_.end(), -new_limit_);
@@ -43,37 +43,36 @@ class Repager {
     }
   }
 
-  [[nodiscard]] std::int32_t entry_at(Index3 source) const {
-    return from_.table[static_cast<std::size_t>(from_.layout.page_number(source))];
+  [[nodiscard]] Field::Kind kind_at(Index3 source) const {
+    return from_.pages.kind(from_.layout.page_number(source));
   }
 
-  // What all these pages are; none when one is resident or they differ.
-  [[nodiscard]] std::optional<std::int32_t> constant_in(Index3 first, Index3 end) const {
-    const std::int32_t one = entry_at(first);
-    bool same = one < 0;
-    for_each_page(first, end, [&](Index3 source) { same = same && entry_at(source) == one; });
+  // What all these pages are; none when one is stored or they differ.
+  [[nodiscard]] std::optional<Field::Kind> constant_in(Index3 first, Index3 end) const {
+    const Field::Kind one = kind_at(first);
+    bool same = one != Field::Kind::stored;
+    for_each_page(first, end, [&](Index3 source) { same = same && kind_at(source) == one; });
     return same ? std::optional(one) : std::nullopt;
   }
 
   // The voxels of a page of the source that lie in the box of the page that is made.
   void copy(Index3 source, Index3 first, Index3 end) {
-    const std::int32_t entry = entry_at(source);
+    const float* const values = from_.pages.values(from_.layout.page_number(source));
     const Index3 old_shape = from_.layout.page_shape();
     const Index3 new_shape = to_.layout.page_shape();
     const Index3 corner = source * old_shape;
     const Index3 low = glm::max(first, corner);
     const Index3 high = glm::min(end, corner + old_shape);
-    const float constant = entry == Field::kInside ? new_limit_ : -new_limit_;
+    const float constant = kind_at(source) == Field::Kind::inside ? new_limit_ : -new_limit_;
     for (std::int64_t z = low.z; z < high.z; ++z) {
       for (std::int64_t y = low.y; y < high.y; ++y) {
         const Index3 at = Index3(low.x, y, z);
         float* const to = values_.data() + index_in(at - first, new_shape);
-        if (entry < 0) {
+        if (values == nullptr) {
           std::fill_n(to, high.x - low.x, constant);
           continue;
         }
-        const float* const row =
-            from_.pages.data() + entry * from_.layout.voxels_per_page() + index_in(at - corner, old_shape);
+        const float* const row = values + index_in(at - corner, old_shape);
         std::transform(row, row + (high.x - low.x), to, [this](float phi) { return in_band(phi); });
       }
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/page_with_apron.h"
+#include "solver/paging/page_neighbours.h"
 
 namespace tidemark::solver {
 namespace {
@@ -82,41 +83,83 @@ void for_each_voxel(Index3 shape, Visit visit) {
 
 }  // namespace
 
-SurfaceStatistics measure(const Field& phi) {
-  SurfaceStatistics result;
-  const PageLayout& layout = phi.layout;
+SurfaceMeter::PageSums SurfaceMeter::sums_of(const Field& phi, std::int64_t page, PageWithApron& values) {
+  PageSums sums;
   const Geometry& geometry = phi.geometry;
-  PageWithApron values(phi);
-  double voxels = 0.0;
-  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
-    if (entry == Field::kOutside) continue;
-    const Index3 valid = layout.valid_shape(page);
-    const std::int64_t count = valid.x * valid.y * valid.z;
-    if (entry == Field::kInside) {
-      result.voxels_inside += count;
-      voxels += static_cast<double>(count);
-      continue;
+  const Index3 first = phi.layout.first_voxel(page);
+  values.gather(page);
+  for_each_voxel(phi.layout.valid_shape(page), [&](Index3 local) {
+    const Index3 voxel = first + local;
+    const double value = values.at(local);
+    if (value > 0.0) ++sums.voxels_inside;
+    if (std::abs(value) < phi.band) {
+      sums.voxels += share_inside(value, change_over_voxel(values, local, voxel, geometry.size));
+    } else if (value > 0.0) {
+      sums.voxels += 1.0;
     }
-    const Index3 first = layout.first_voxel(page);
-    values.gather(page);
-    for_each_voxel(valid, [&](Index3 local) {
-      const Index3 voxel = first + local;
-      const double value = values.at(local);
-      if (value > 0.0) ++result.voxels_inside;
-      if (std::abs(value) < phi.band) {
-        voxels += share_inside(value, change_over_voxel(values, local, voxel, geometry.size));
-      } else if (value > 0.0) {
-        voxels += 1.0;
-      }
-      // A single slice goes on as it is for its thickness: its surface is its outline times that.
-      if (geometry.contains(voxel + Index3(1, 1, geometry.size.z == 1 ? 0 : 1))) {
-        result.surface_mm2 += area_in_cell(values.cell(local), geometry.spacing_mm);
-      }
-    });
+    // A single slice goes on as it is for its thickness: its surface is its outline times that.
+    if (geometry.contains(voxel + Index3(1, 1, geometry.size.z == 1 ? 0 : 1))) {
+      sums.surface_mm2 += area_in_cell(values.cell(local), geometry.spacing_mm);
+    }
+  });
+  return sums;
+}
+
+void SurfaceMeter::begin(const Field& phi) {
+  measured_ = Field::empty(phi.geometry, phi.band, phi.layout.page_shape());
+  sums_.clear();
+  constant_inside_ = 0;
+}
+
+// Measures the pages that have changed, and those beside them, whose differences and cells reach into them.
+void SurfaceMeter::follow(const Field& phi) {
+  const PageLayout& layout = phi.layout;
+  const bool had_pages = !sums_.empty();
+  std::vector<std::int64_t> pages;
+  const auto inside = [&](const SharedPages& all, std::int64_t page) {
+    const Index3 valid = layout.valid_shape(page);
+    return all.kind(page) == Field::Kind::inside ? valid.x * valid.y * valid.z : 0;
+  };
+  SharedPages::for_each_difference(measured_->pages, phi.pages, [&](std::int64_t page) {
+    constant_inside_ += inside(phi.pages, page) - inside(measured_->pages, page);
+    if (!phi.pages.is_stored(page)) sums_.erase(page);
+    if (!had_pages) return;
+    for (int n = 0; n < kNeighbours; ++n) {
+      const Index3 at = layout.page_coordinates(page) + neighbour_step(n);
+      if (!layout.contains_page(at)) continue;
+      if (const std::int64_t beside = layout.page_number(at); phi.pages.is_stored(beside))
+        pages.push_back(beside);
+    }
+  });
+  if (had_pages) {
+    std::sort(pages.begin(), pages.end());
+    pages.erase(std::unique(pages.begin(), pages.end()), pages.end());
+  } else {
+    pages = phi.pages.stored_pages();
+  }
+  PageWithApron values(phi);
+  for (const std::int64_t page : pages) sums_[page] = sums_of(phi, page, values);
+  measured_ = phi;
+}
+
+SurfaceStatistics SurfaceMeter::measure(const Field& phi) {
+  const bool follows = measured_ && measured_->layout == phi.layout && measured_->band == phi.band &&
+                       measured_->geometry.spacing_mm == phi.geometry.spacing_mm;
+  if (!follows) begin(phi);
+  follow(phi);
+  SurfaceStatistics result{constant_inside_, 0.0, 0.0};
+  auto voxels = static_cast<double>(constant_inside_);
+  for (const auto& [page, sums] : sums_) {
+    result.voxels_inside += sums.voxels_inside;
+    voxels += sums.voxels;
+    result.surface_mm2 += sums.surface_mm2;
   }
   result.volume_ml = voxels * phi.geometry.voxel_volume_ml();
   return result;
+}
+
+SurfaceStatistics measure(const Field& phi) {
+  return SurfaceMeter().measure(phi);
 }
 
 }  // namespace tidemark::solver

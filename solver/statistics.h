@@ -1,6 +1,10 @@
 // The measurements on a level set.
 #pragma once
 
+#include <map>
+#include <optional>
+#include <vector>
+
 #include "solver/field.h"
 
 namespace tidemark::solver {
@@ -12,5 +16,27 @@ struct SurfaceStatistics {
 };
 
 SurfaceStatistics measure(const Field& phi);
+
+// Measures one copy of a level set after the other: what a copy shares with the one before is not measured
+// again. The figures are those of measure(), to the last bit.
+class SurfaceMeter {
+ public:
+  SurfaceStatistics measure(const Field& phi);
+
+ private:
+  // Of a stored page.
+  struct PageSums {
+    std::int64_t voxels_inside = 0;
+    double voxels = 0.0;  // inside phi = 0
+    double surface_mm2 = 0.0;
+  };
+  void follow(const Field& phi);
+  void begin(const Field& phi);
+  [[nodiscard]] static PageSums sums_of(const Field& phi, std::int64_t page, class PageWithApron& values);
+
+  std::optional<Field> measured_;
+  std::map<std::int64_t, PageSums> sums_;
+  std::int64_t constant_inside_ = 0;  // voxels of pages that are inside throughout
+};
 
 }  // namespace tidemark::solver

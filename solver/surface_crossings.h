@@ -14,7 +14,7 @@ namespace tidemark::solver {
 template <class Visit>
 bool for_each_voxel(const Field& phi, const Progress& progress, const Visit& visit) {
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] == Field::kOutside) continue;
+    if (phi.pages.kind(page) == Field::Kind::outside) continue;
     if (progress.cancelled()) return false;
     const Index3 first = phi.layout.first_voxel(page);
     const Index3 valid = phi.layout.valid_shape(page);

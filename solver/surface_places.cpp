@@ -74,7 +74,7 @@ bool meets(const Field& phi, std::int64_t page, const PlaneSlab& slab) {
   return std::abs(glm::dot(slab.normal, middle_mm) - slab.offset_mm) <= radius_mm + slab.reach_mm;
 }
 
-// Calls visit(place) for each crossing of phi = 0 between a voxel of a resident page and the one after it
+// Calls visit(place) for each crossing of phi = 0 between a voxel of a stored page and the one after it
 // along an axis.
 template <class Visit>
 void for_each_crossing(const Field& phi, std::int64_t page, Visit visit) {
@@ -82,8 +82,7 @@ void for_each_crossing(const Field& phi, std::int64_t page, Visit visit) {
   const Index3 strides(1, shape.x, shape.x * shape.y);
   const Index3 first = phi.layout.first_voxel(page);
   const Index3 valid = phi.layout.valid_shape(page);
-  const float* values =
-      phi.pages.data() + phi.table[static_cast<std::size_t>(page)] * phi.layout.voxels_per_page();
+  const float* const values = phi.pages.values(page);
   for (std::int64_t z = 0; z < valid.z; ++z) {
     for (std::int64_t y = 0; y < valid.y; ++y) {
       for (std::int64_t x = 0; x < valid.x; ++x) {
@@ -163,7 +162,7 @@ std::vector<glm::dvec3> surface_places(const Field& phi, const std::optional<Pla
       thinned.add(place, place_mm);
   };
   for (std::int64_t page = 0; page < phi.layout.page_count() && !stop.stop_requested(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] < 0 || (slab && !meets(phi, page, *slab))) continue;
+    if (!phi.pages.is_stored(page) || (slab && !meets(phi, page, *slab))) continue;
     for_each_crossing(phi, page, add);
   }
   return std::move(thinned.places);
@@ -176,7 +175,7 @@ std::vector<glm::dvec3> surface_places_in(const Field& phi, std::span<const std:
   for (const std::int64_t page : pages) {
     if (stop.stop_requested()) break;
     // One that has become constant since has no surface.
-    if (phi.table[static_cast<std::size_t>(page)] >= 0) for_each_crossing(phi, page, add);
+    if (phi.pages.is_stored(page)) for_each_crossing(phi, page, add);
   }
   return std::move(thinned.places);
 }

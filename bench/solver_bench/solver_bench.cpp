@@ -4,11 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "core/thread_pool.h"
 #include "core/volume.h"
 #include "dense_gl.h"
@@ -16,6 +18,7 @@
 #include "solver/executor.h"
 #include "solver/model.h"
 #include "solver/statistics.h"
+#include "solver/surface_places.h"
 
 namespace tidemark {
 namespace {
@@ -89,6 +92,44 @@ std::int64_t needed_voxels(const solver::Field& phi) {
   return std::count_if(values.begin(), values.end(), [limit](float v) { return std::abs(v) < limit; });
 }
 
+double milliseconds(const Stopwatch& stopwatch) {
+  return 1e3 * stopwatch.seconds();
+}
+
+// The median of some dabs of 10 mm on the surface, each with a copy of phi and its figures, as a stroke of
+// the brush makes them.
+Status measure_dabs(solver::Executor& executor, const Geometry& geometry) {
+  constexpr int kDabs = 15;
+  solver::SurfaceMeter meter;
+  std::array<std::vector<double>, 3> times;
+  auto phi = executor.snapshot();
+  if (!phi) return pass_on(phi);
+  meter.measure(*phi);
+  const std::vector<glm::dvec3> places = solver::surface_places(*phi, std::nullopt, 20.0);
+  for (int dab = 0; dab < kDabs && !places.empty(); ++dab) {
+    const glm::dvec3 place = places[static_cast<std::size_t>(dab) * places.size() / kDabs];
+    Stopwatch paint;
+    TIDEMARK_TRY(executor.paint(solver::sphere_at_voxel(geometry, place, 5.0),
+                                dab % 2 == 0 ? solver::Brush::add : solver::Brush::erase));
+    times[0].push_back(milliseconds(paint));
+    Stopwatch copy;
+    phi = executor.snapshot();
+    if (!phi) return pass_on(phi);
+    times[1].push_back(milliseconds(copy));
+    Stopwatch figures;
+    meter.measure(*phi);
+    times[2].push_back(milliseconds(figures));
+  }
+  const auto median = [](std::vector<double>& of) {
+    if (of.empty()) return 0.0;
+    std::nth_element(of.begin(), of.begin() + kDabs / 2, of.end());
+    return of[kDabs / 2];
+  };
+  fmt::print("  a dab of 10 mm: paint {:.2f} ms, copy {:.2f} ms, figures {:.2f} ms\n", median(times[0]),
+             median(times[1]), median(times[2]));
+  return {};
+}
+
 // phi when `settings.steps` steps are done.
 Result<solver::Field> measure_executor(const std::shared_ptr<const Volume>& source, const Settings& settings,
                                        const std::string& name) {
@@ -127,7 +168,7 @@ Result<solver::Field> measure_executor(const std::shared_ptr<const Volume>& sour
   if (!converged) return pass_on(converged);
   print_run("at rest", *converged, **executor);
   const solver::SurfaceStatistics surface = solver::measure(*phi);
-  fmt::print("  processed/needed voxels {:.2f}\n", static_cast<double>(phi->resident_pages()) *
+  fmt::print("  processed/needed voxels {:.2f}\n", static_cast<double>(phi->pages.stored()) *
                                                        static_cast<double>(phi->layout.voxels_per_page()) /
                                                        static_cast<double>(needed_voxels(*phi)));
   fmt::print(
@@ -135,6 +176,7 @@ Result<solver::Field> measure_executor(const std::shared_ptr<const Volume>& sour
       "{:.1f} us\n",
       surface.voxels_inside, surface.surface_mm2, static_cast<double>(memory.peak_state_bytes) / resident,
       1e6 * converged->seconds / static_cast<double>(converged->steps));
+  TIDEMARK_TRY(measure_dabs(**executor, source->geometry));
   TIDEMARK_TRY((*executor)->validate());
   return phi;
 }

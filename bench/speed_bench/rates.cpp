@@ -42,7 +42,7 @@ solver::Field ball_on(const Geometry& geometry) {
 std::vector<solver::VoxelBox> pages_of(const solver::Field& phi) {
   std::vector<solver::VoxelBox> boxes;
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
+    if (!phi.pages.is_stored(page)) continue;
     boxes.push_back({phi.layout.first_voxel(page), phi.layout.valid_shape(page)});
   }
   return boxes;
@@ -129,7 +129,7 @@ Status measure_rates(const engine::LoadedStudy& study) {
   const Geometry& geometry = inputs.source->geometry;
   const solver::Field phi = ball_on(geometry);
   fmt::print("{} x {} x {}, {} pages at the surface, {} processors\n", geometry.size.x, geometry.size.y,
-             geometry.size.z, phi.resident_pages(), available_processors());
+             geometry.size.z, phi.pages.stored(), available_processors());
   fmt::print("{:24} {:>8} {:>8} {:>8} {:>10} {:>10} {:>10} {:>10}\n", "million voxels / s", "pages", "again",
              "slices", "processors", "velocity", "make ms", "follow ms");
   const double smallest = std::min({geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z});

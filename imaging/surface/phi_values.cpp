@@ -14,11 +14,11 @@ void PhiValues::signs(std::int64_t j, std::int64_t k, std::uint8_t* row) const {
   }
   for (std::int64_t i = 0; i < length; i += kSide) {
     const std::int64_t there = std::min(kSide, length - i);
-    const std::int32_t entry = paged_.table[static_cast<std::size_t>(page_number(page_of({i, j, k})))];
-    if (entry < 0) {
-      std::fill_n(row + i, there, is_inside(paged_.constant(entry)));
+    const PhiPages::Page& at = page({i, j, k});
+    if (at.values == nullptr) {
+      std::fill_n(row + i, there, is_inside(at.constant));
     } else {
-      const float* const first = page(entry) + index_in_page({i, j, k});
+      const float* const first = at.values + index_in_page({i, j, k});
       std::transform(first, first + there, row + i, is_inside);
     }
   }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "core/geometry.h"
 #include "imaging/surface/surface.h"
@@ -14,16 +13,18 @@ namespace tidemark::imaging {
 class PhiValues {
  public:
   PhiValues(const Geometry& geometry, const float* dense) : geometry_(geometry), dense_(dense) {}
-  explicit PhiValues(const PhiPages& pages)
-      : geometry_(pages.geometry), paged_(pages), pages_(page_of(pages.geometry.size + (kSide - 1))) {}
+  explicit PhiValues(const PhiPages& phi)
+      : geometry_(phi.geometry),
+        pages_(phi.pages.data()),
+        page_grid_(page_of(phi.geometry.size + (kSide - 1))) {}
 
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
 
   // Of a voxel of the grid.
   [[nodiscard]] float at(Index3 v) const {
     if (dense_ != nullptr) return dense_[geometry_.offset(v)];
-    const std::int32_t entry = paged_.table[static_cast<std::size_t>(page_number(page_of(v)))];
-    return entry < 0 ? paged_.constant(entry) : page(entry)[index_in_page(v)];
+    const PhiPages::Page& there = page(v);
+    return there.values == nullptr ? there.constant : there.values[index_in_page(v)];
   }
 
   // Whether phi > 0 in each voxel of a row along i.
@@ -36,17 +37,16 @@ class PhiValues {
   static std::int64_t index_in_page(Index3 v) {
     return v.x % kSide + kSide * (v.y % kSide + kSide * (v.z % kSide));
   }
-  [[nodiscard]] std::int64_t page_number(Index3 page) const {
-    return page.x + pages_.x * (page.y + pages_.y * page.z);
-  }
-  [[nodiscard]] const float* page(std::int32_t entry) const {
-    return paged_.pages.data() + entry * kSide * kSide * kSide;
+  // That a voxel lies in.
+  [[nodiscard]] const PhiPages::Page& page(Index3 v) const {
+    const Index3 at = page_of(v);
+    return pages_[at.x + page_grid_.x * (at.y + page_grid_.y * at.z)];
   }
 
   const Geometry& geometry_;
   const float* dense_ = nullptr;  // null: in pages
-  PhiPages paged_{geometry_, {}, {}, 0.0F};
-  Index3 pages_{0};
+  const PhiPages::Page* pages_ = nullptr;
+  Index3 page_grid_{0};
 };
 
 }  // namespace tidemark::imaging

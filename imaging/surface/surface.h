@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 #include "core/geometry.h"
@@ -19,19 +18,17 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
 };
 
-// phi in pages of 8 x 8 x 8 voxels, i fastest: those that the surface is near. A table entry is the number of
-// a page, or below 0 where all of it is inside or all outside; the last pages of an axis may go beyond the
-// grid. What it refers to must outlive it.
+// phi in pages of 8 x 8 x 8 voxels, i fastest: those that the surface is near. The last pages of an axis may
+// go beyond the grid. What it refers to must outlive it.
 struct PhiPages {
   static constexpr std::int64_t kSide = 8;
-  static constexpr std::int32_t kInside = -2;  // else outside
+  struct Page {
+    const float* values = nullptr;  // null: all of it is `constant`
+    float constant = 0.0F;
+  };
 
   const Geometry& geometry;
-  std::span<const std::int32_t> table;
-  std::span<const float> pages;
-  float band;  // |phi| of the others
-
-  [[nodiscard]] float constant(std::int32_t entry) const { return entry == kInside ? band : -band; }
+  std::vector<Page> pages;
 };
 
 // The surface phi = 0 (phi > 0 inside) at sub-voxel precision: closed, also where it meets the volume's

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include "gpu/framebuffer.h"
 
@@ -39,9 +38,8 @@ Result<PhiPicture> PhiPicture::create(gpu::Device& device, const solver::PageLay
   if (!field) return pass_on(field);
   picture.field_ = std::move(*field);
   picture.table_ = solver::PageTable(layout);
-  picture.shown_.band = band;
-  picture.shown_.layout = layout;
-  picture.shown_.table.assign(static_cast<std::size_t>(layout.page_count()), solver::Field::kOutside);
+  picture.band_ = band;
+  picture.shown_ = solver::SharedPages(layout.page_count(), layout.voxels_per_page());
   auto table = Array::create(device, layout.page_count(), gpu::TexelFormat::r32i, "page table");
   if (!table) return pass_on(table);
   picture.page_table_ = std::move(*table);
@@ -61,30 +59,31 @@ Result<PhiPicture> PhiPicture::create(gpu::Device& device, const solver::PageLay
 
 // Makes the page table that of `phi`, and finds the pages that differ from what was shown.
 std::vector<PhiPicture::Change> PhiPicture::follow(const solver::Field& phi) {
-  std::vector<Change> changes;
-  new_pages_.clear();
-  const auto voxels = static_cast<std::size_t>(phi.layout.voxels_per_page());
-  // Freed pages come first, so that their room is used again.
-  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
-    if (entry >= 0) continue;
-    if (solver::is_static_page(table_.physical(page))) {
-      table_.set_static(page, entry == solver::Field::kInside);
+  std::vector<std::int64_t> stored;
+  const auto look_at = [&](std::int64_t page) {
+    const solver::Field::Kind kind = phi.pages.kind(page);
+    const bool is_inside = kind == solver::Field::Kind::inside;
+    if (kind == solver::Field::Kind::stored) {
+      stored.push_back(page);
+    } else if (solver::is_static_page(table_.physical(page))) {
+      table_.set_static(page, is_inside);
     } else {
-      table_.release(page, entry == solver::Field::kInside);
+      table_.release(page, is_inside);
     }
+  };
+  if (shown_) {
+    solver::SharedPages::for_each_difference(*shown_, phi.pages, look_at);
+  } else {
+    for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) look_at(page);
   }
-  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
-    if (entry < 0) continue;
-    const float* values = phi.pages.data() + static_cast<std::size_t>(entry) * voxels;
+  // After the freed ones, so that their room is used again.
+  new_pages_.clear();
+  std::vector<Change> changes;
+  for (const std::int64_t page : stored) {
     solver::PhysicalPage physical = table_.physical(page);
     if (solver::is_static_page(physical)) {
       physical = table_.allocate(page);
       new_pages_.push_back(page);
-    } else if (!shown_.pages.empty()) {
-      const auto shown = static_cast<std::size_t>(shown_.table[static_cast<std::size_t>(page)]);
-      if (std::memcmp(values, shown_.pages.data() + shown * voxels, voxels * sizeof(float)) == 0) continue;
     }
     changes.push_back({page, physical});
   }
@@ -95,7 +94,7 @@ Status PhiPicture::update(gpu::Device& device, const solver::Field& phi,
                           std::span<const std::int64_t> quiet) {
   const std::vector<Change> changes = follow(phi);
   // Until everything is up there, nothing counts as shown.
-  shown_.pages.clear();
+  shown_.reset();
   if (table_.capacity() > field_.capacity()) {
     // By a quarter more than needed: a growing surface does not copy G with every picture.
     const std::int64_t wanted = table_.capacity() + table_.capacity() / 4;
@@ -108,7 +107,7 @@ Status PhiPicture::update(gpu::Device& device, const solver::Field& phi,
   pages_uploaded_ = static_cast<std::int64_t>(changes.size());
   upload_tables(quiet);
   viewed_.reset();
-  shown_ = phi;
+  shown_ = phi.pages;
   return device.check("sending phi to the pictures");
 }
 
@@ -119,8 +118,7 @@ Status PhiPicture::upload(gpu::Device& device, const solver::Field& phi, std::sp
   std::vector<std::int32_t> addresses;
   for (std::int64_t i = 0; i < count; ++i) {
     const Change& change = changes[static_cast<std::size_t>(i)];
-    const std::int64_t index = phi.table[static_cast<std::size_t>(change.page)];
-    layout().pack(phi.pages.data() + index * voxels, tiles.data() + i * voxels, layout().tile().x);
+    layout().pack(phi.pages.values(change.page), tiles.data() + i * voxels, layout().tile().x);
     addresses.push_back(change.physical);
   }
   auto staged = Array::create(device, count * voxels, gpu::TexelFormat::r32f, "changed pages");
@@ -206,7 +204,7 @@ void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {
   program.set("page_table", unit + 1);
   page_flags_.texture.bind(static_cast<unsigned>(unit + 2));
   program.set("page_flags", unit + 2);
-  program.set("band", static_cast<float>(shown_.band));
+  program.set("band", static_cast<float>(band_));
 }
 
 }  // namespace tidemark::renderer

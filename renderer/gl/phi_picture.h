@@ -39,7 +39,7 @@ class PhiPicture {
   [[nodiscard]] const solver::PackedLayout& layout() const { return field_.layout(); }
   // The physical page of each virtual one; of an executor's memory, read back.
   [[nodiscard]] std::vector<solver::PhysicalPage> page_entries() const;
-  [[nodiscard]] double band() const { return shown_.band; }
+  [[nodiscard]] double band() const { return band_; }
   [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }  // by the last update
   // Physical memory G, packed like an executor's.
   [[nodiscard]] const solver::PackedField& field() const { return field_; }
@@ -64,7 +64,8 @@ class PhiPicture {
   void upload_flags(std::span<const std::int64_t> quiet, std::int64_t resident);
 
   solver::PageTable table_;
-  solver::Field shown_;  // what is on the GPU
+  double band_ = 0.0;
+  std::optional<solver::SharedPages> shown_;  // what is on the GPU; unset: that is not known
   solver::PackedField field_;
   Array page_table_;
   Array page_flags_;

@@ -50,12 +50,11 @@ void PhiPages::mark(std::span<const std::int64_t> quiet) {
 
 void PhiPages::show(std::shared_ptr<const solver::Field> phi, std::span<const std::int64_t> quiet) {
   begin(phi->band);
-  const std::int64_t voxels = layout_.voxels_per_page();
   for (std::size_t page = 0; page < values_.size(); ++page) {
-    const std::int32_t entry = phi->table[page];
-    values_[page] = entry >= 0                        ? phi->pages.data() + entry * voxels
-                    : entry == solver::Field::kInside ? inside_.data()
-                                                      : outside_.data();
+    const auto number = static_cast<std::int64_t>(page);
+    const float* const stored = phi->pages.values(number);
+    const bool is_inside = phi->pages.kind(number) == solver::Field::Kind::inside;
+    values_[page] = stored != nullptr ? stored : is_inside ? inside_.data() : outside_.data();
   }
   copy_ = std::move(phi);
   mark(quiet);

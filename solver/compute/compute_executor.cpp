@@ -361,10 +361,10 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
 
 Result<Field> ComputeExecutor::snapshot() const {
   TIDEMARK_TRY(device_->make_current());
-  auto phi = memory_.download(source_->geometry, band(), current_);
-  if (!phi) return pass_on(phi);
+  Field phi = known_;
+  TIDEMARK_TRY(memory_.download(current_, phi));
   TIDEMARK_TRY(device_->check("reading phi back"));
-  return phi;
+  return known_ = std::move(phi);
 }
 
 MemoryReport ComputeExecutor::memory() const {

@@ -9,7 +9,7 @@ namespace tidemark::solver {
 
 Status ComputeExecutor::replace(const Field& phi) {
   constexpr std::int64_t kFewPages = 16;
-  const std::int64_t pages = phi.resident_pages() + kFewPages;
+  const std::int64_t pages = phi.pages.stored() + kFewPages;
   TIDEMARK_TRY(check_budget(pages, PageMemory::bytes_for(layout_, pages)));
   auto memory = PageMemory::create(*device_, layout_, phi, pages);
   if (!memory) return pass_on(memory);

@@ -25,7 +25,7 @@ std::int64_t PageMemory::bytes_for(const PackedLayout& layout, std::int64_t capa
 Result<PageMemory> PageMemory::create(gpu::Device& device, const PackedLayout& layout, const Field& phi,
                                       std::int64_t capacity) {
   PageMemory memory;
-  const std::int64_t resident = phi.resident_pages();
+  const std::int64_t resident = phi.pages.stored();
   auto field = PackedField::create(device, layout, std::max(capacity, resident + kFirstPage),
                                    static_cast<float>(phi.band));
   if (!field) return pass_on(field);
@@ -33,17 +33,16 @@ Result<PageMemory> PageMemory::create(gpu::Device& device, const PackedLayout& l
   memory.field_.upload(phi.pages);
 
   const std::int64_t pages = memory.capacity();
-  std::vector<std::int32_t> table(phi.table.size());
+  std::vector<std::int32_t> table(static_cast<std::size_t>(phi.pages.size()));
   std::vector<std::int32_t> inverse(static_cast<std::size_t>(pages), -1);
   std::vector<std::int32_t> active;
   std::vector<ComputePageState> states(static_cast<std::size_t>(pages));
   for (std::size_t page = 0; page < table.size(); ++page) {
-    const std::int32_t entry = phi.table[page];
-    if (entry < 0) {
-      table[page] = entry == Field::kInside ? kInsidePage : kOutsidePage;
+    if (const auto kind = phi.pages.kind(static_cast<std::int64_t>(page)); kind != Field::Kind::stored) {
+      table[page] = kind == Field::Kind::inside ? kInsidePage : kOutsidePage;
       continue;
     }
-    const PhysicalPage physical = entry + kFirstPage;
+    const auto physical = static_cast<PhysicalPage>(active.size() + kFirstPage);
     table[page] = physical;
     inverse[static_cast<std::size_t>(physical)] = static_cast<std::int32_t>(page);
     states[static_cast<std::size_t>(physical)].flags = 2;  // listed
@@ -130,23 +129,12 @@ void PageMemory::bind() const {
   free_list_.bind_storage(5);
 }
 
-Result<Field> PageMemory::download(const Geometry& geometry, double band, int buffer) const {
+Status PageMemory::download(int buffer, Field& phi) const {
   auto physical = field_.download(buffer);
   if (!physical) return pass_on(physical);
-  const PageLayout& layout = field_.layout().layout();
-  Field phi = Field::empty(geometry, band, layout.page_shape());
-  const auto table = page_table_.download_values<std::int32_t>(0, layout.page_count());
-  const std::int64_t voxels = layout.voxels_per_page();
-  for (std::size_t page = 0; page < table.size(); ++page) {
-    if (table[page] < kFirstPage) {
-      if (table[page] == kInsidePage) phi.table[page] = Field::kInside;
-      continue;
-    }
-    phi.table[page] = static_cast<std::int32_t>(phi.resident_pages());
-    const float* values = physical->data() + table[page] * voxels;
-    phi.pages.insert(phi.pages.end(), values, values + voxels);
-  }
-  return phi;
+  const auto table = page_table_.download_values<std::int32_t>(0, phi.layout.page_count());
+  update(phi, table, *physical);
+  return {};
 }
 
 std::vector<std::int64_t> PageMemory::resident_pages() const {

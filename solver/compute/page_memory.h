@@ -66,8 +66,8 @@ class PageMemory {
   // Room for more pages, by copy. On failure it is as before.
   Status grow(gpu::Device& device, std::int64_t capacity);
 
-  // A copy of phi from the given buffer. Waits for the GPU.
-  Result<Field> download(const Geometry& geometry, double band, int buffer) const;
+  // Makes `phi` what the given buffer holds. Waits for the GPU.
+  Status download(int buffer, Field& phi) const;
   // The tables agree both ways, used and free pages make up the capacity, and no page is there twice.
   Status validate() const;
 

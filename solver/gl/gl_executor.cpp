@@ -11,7 +11,8 @@ GlExecutor::GlExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<cons
     : ExecutorBase(std::move(source), parameters),
       device_(std::move(device)),
       options_(options),
-      layout_(PageLayout(source_->geometry.size, page_shape), device_->capabilities().largest_texture) {}
+      layout_(PageLayout(source_->geometry.size, page_shape), device_->capabilities().largest_texture),
+      known_(Field::empty(source_->geometry, band(), page_shape)) {}
 
 Status GlExecutor::make_textures() {
   auto textures = DriveTextures::create(*device_, *source_, speed_, options_.threads);
@@ -43,12 +44,11 @@ Status GlExecutor::restore(const Field& phi) {
     return restore(phi.repaged(phi.band, layout_.layout().page_shape()));
   }
   TIDEMARK_TRY(make_current());
-  if (constraints_ != nullptr && !constraints_->empty()) {
-    Field limited = phi;
-    constrain(limited, *constraints_);
-    return replace(limited);
-  }
-  return replace(phi);
+  Field limited = phi;
+  if (constraints_ != nullptr && !constraints_->empty()) constrain(limited, *constraints_);
+  TIDEMARK_TRY(replace(limited));
+  known_.pages = limited.pages;
+  return {};
 }
 
 // phi goes through the processor, where pages are made that were constant.

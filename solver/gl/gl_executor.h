@@ -50,6 +50,7 @@ class GlExecutor : public ExecutorBase {
   ExecutorOptions options_;
   PackedLayout layout_;
   DriveTextures drive_textures_;
+  mutable Field known_;  // the last copy, or what was restored: the next copy shares what is as it was
   std::int64_t peak_resident_ = 0;
   std::int64_t peak_bytes_ = 0;
 

@@ -59,9 +59,9 @@ Status PackedField::grow(gpu::Device& device, std::int64_t capacity) {
   return {};
 }
 
-void PackedField::upload(std::span<const float> pages) {
-  const std::int64_t voxels = layout_.layout().voxels_per_page();
-  const std::int64_t count = static_cast<std::int64_t>(pages.size()) / voxels;
+void PackedField::upload(const SharedPages& pages) {
+  const std::vector<std::int64_t> stored = pages.stored_pages();
+  const auto count = static_cast<std::int64_t>(stored.size());
   const std::int64_t row_length = phi_[0].width();
   const glm::i64vec2 tile = layout_.tile();
   // Whole rows of tiles at a time; the static pages are the first two of the first row.
@@ -71,7 +71,8 @@ void PackedField::upload(std::span<const float> pages) {
     for (std::int64_t column = 0; column < per_row; ++column) {
       const std::int64_t index = row * per_row + column - kFirstPage;
       if (index < 0 || index >= count) continue;
-      layout_.pack(pages.data() + index * voxels, rows.data() + column * tile.x, row_length);
+      layout_.pack(pages.values(stored[static_cast<std::size_t>(index)]), rows.data() + column * tile.x,
+                   row_length);
     }
     for (gpu::Texture2D& texture : phi_) {
       texture.upload({0, row * tile.y, row_length, tile.y}, std::as_bytes(std::span(rows)));
@@ -97,6 +98,18 @@ Result<std::vector<float>> PackedField::download(int buffer) const {
                    pages.data() + page * voxels);
   }
   return pages;
+}
+
+void update(Field& phi, std::span<const PhysicalPage> table, std::span<const float> physical) {
+  const std::int64_t voxels = phi.layout.voxels_per_page();
+  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
+    const PhysicalPage from = table[static_cast<std::size_t>(page)];
+    if (is_static_page(from)) {
+      phi.pages.set_constant(page, from == kInsidePage ? Field::Kind::inside : Field::Kind::outside);
+    } else {
+      phi.update_page(page, physical.data() + from * voxels);
+    }
+  }
 }
 
 }  // namespace tidemark::solver

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/texture.h"
+#include "solver/field.h"
 #include "solver/gl/packed_layout.h"
 
 namespace tidemark::solver {
@@ -29,9 +30,9 @@ class PackedField {
   }
   [[nodiscard]] const gpu::Texture2D& phi(int buffer) const { return phi_[static_cast<std::size_t>(buffer)]; }
 
-  // Writes pages kFirstPage, kFirstPage + 1, ... of all buffers: `pages` holds their voxels one page after
-  // the other, i fastest.
-  void upload(std::span<const float> pages);
+  // Writes pages kFirstPage, kFirstPage + 1, ... of all buffers: the stored ones in the order of their
+  // virtual numbers.
+  void upload(const SharedPages& pages);
   // Writes the tile of one page in one buffer.
   void upload_page(PhysicalPage page, std::span<const float> tile, int buffer);
   // The voxels of all physical pages, in the same order, page 0 first. Waits for the GPU.
@@ -47,5 +48,9 @@ class PackedField {
   float band_ = 0.0F;
   std::vector<gpu::Texture2D> phi_;
 };
+
+// Makes `phi` what a page table says, from the voxels of all physical pages as PackedField::download() gives
+// them. Pages that are as they were stay where they lie.
+void update(Field& phi, std::span<const PhysicalPage> table, std::span<const float> physical);
 
 }  // namespace tidemark::solver

@@ -64,8 +64,14 @@ Status HostExecutor::restore(const Field& phi) {
   return edits_.restore(phi);
 }
 
+Result<Field> HostExecutor::snapshot() const {
+  quiet_.note_changes();
+  return pages_.copy();
+}
+
 Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
-  begin_window();
+  restart_watch(kPageVoxels);
+  window_begins_ = true;
   return edits_.paint(sphere, brush);
 }
 
@@ -225,6 +231,7 @@ void HostExecutor::step() {
       },
       goes_back() ? ThreadPool::Direction::backward : ThreadPool::Direction::forward);
   pages_.swap_buffers();
+  quiet_.computed();
 }
 
 // After a step: grants the requests, frees pages that have become constant, wakes neighbours of pages that
@@ -247,6 +254,7 @@ Status HostExecutor::maintain() {
 void HostExecutor::begin_window() {
   restart_watch(kPageVoxels);
   quiet_.begin_window();
+  window_begins_ = false;
 }
 
 // Ends the window of steps over which motion is summed up, when this step does: judges convergence and which
@@ -266,6 +274,7 @@ Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
   if (pages_.needs_activation()) {
     TIDEMARK_TRY(pages_.activate_all());
   }
+  if (window_begins_) begin_window();
   return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     const Stopwatch list;
     quiet_.refresh_active();

@@ -25,7 +25,7 @@ class HostExecutor final : public ExecutorBase {
 
   [[nodiscard]] std::string_view name() const override { return "host"; }
   Status restore(const Field& phi) override;
-  [[nodiscard]] Result<Field> snapshot() const override { return pages_.copy(); }
+  [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
   Status set_parameters(const Parameters& parameters) override;
   Status set_speed(std::shared_ptr<const SpeedFunction> speed) override;
@@ -71,6 +71,7 @@ class HostExecutor final : public ExecutorBase {
   QuietPages quiet_;
   PageEdits edits_;
   std::vector<std::uint8_t> codes_;  // what each active page asks for after a step
+  bool window_begins_ = false;       // with the next step: what was summed up so far is forgotten then
 };
 
 }  // namespace tidemark::solver

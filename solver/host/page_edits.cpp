@@ -65,29 +65,38 @@ Status PageEdits::restore(const Field& phi) {
   if (phi.layout.page_shape() != kDefaultPageShape) {
     return restore(phi.repaged(phi.band, kDefaultPageShape));
   }
-  TIDEMARK_TRY(pages_.check_budget(phi.resident_pages() - pages_.table().resident()));
+  TIDEMARK_TRY(pages_.check_budget(phi.pages.stored() - pages_.table().resident()));
 
   pages_.clear();
   quiet_.clear();
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] != Field::kInside) continue;
+    if (phi.pages.kind(page) != Field::Kind::inside) continue;
     pages_.set_static(phi.layout.page_coordinates(page), true);
   }
-  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] < 0) continue;
+  for (const std::int64_t page : phi.pages.stored_pages()) {
     TIDEMARK_TRY(pages_.make_resident(page));
   }
   pages_.fill_new_pages();
   pages_.for_each([&](PhysicalPage page) {
-    const std::int32_t entry = phi.table[static_cast<std::size_t>(pages_.table().virtual_page(page))];
-    std::copy_n(phi.pages.data() + std::int64_t{entry} * kPageVoxels, kPageVoxels, pages_.phi(page));
+    std::copy_n(phi.pages.values(pages_.table().virtual_page(page)), kPageVoxels, pages_.phi(page));
     pages_.refresh(page);
   });
+  pages_.know(phi.pages);
   TIDEMARK_TRY(constrain());
   return pages_.activate_all();
 }
 
 Status PageEdits::constrain() {
+  const Constraints* constraints = contents_.constraints.get();
+  if (constraints == nullptr || constraints->empty()) return {};
+  std::vector<std::int64_t> pages;
+  for (std::int64_t page = 0; page < pages_.table().layout().page_count(); ++page) {
+    if (constraints->page(page) != nullptr) pages.push_back(page);
+  }
+  return constrain(pages);
+}
+
+Status PageEdits::constrain(const std::vector<std::int64_t>& virtual_pages) {
   const Constraints* constraints = contents_.constraints.get();
   if (constraints == nullptr || constraints->empty()) return {};
   const PageTable& table = pages_.table();
@@ -96,7 +105,7 @@ Status PageEdits::constrain() {
     return std::any_of(page.begin(), page.end(), constant == kInsidePage ? is_upper : is_lower);
   };
   std::vector<std::int64_t> to_allocate;
-  for (std::int64_t page = 0; page < table.layout().page_count(); ++page) {
+  for (const std::int64_t page : virtual_pages) {
     const Constraints::Page* there = constraints->page(page);
     const PhysicalPage physical = table.physical(page);
     if (there == nullptr || !is_static_page(physical)) continue;
@@ -107,12 +116,14 @@ Status PageEdits::constrain() {
     TIDEMARK_TRY(pages_.make_resident(page));
   }
   pages_.fill_new_pages();
-  pages_.for_each([&](PhysicalPage page) {
-    const Constraints::Page* there = pages_.pool().info(page).constraints;
-    if (there == nullptr || !tidemark::solver::constrain(*there, pages_.phi(page))) return;
+  for (const std::int64_t virtual_page : virtual_pages) {
+    const PhysicalPage page = table.physical(virtual_page);
+    const Constraints::Page* there = constraints->page(virtual_page);
+    if (is_static_page(page) || there == nullptr) continue;
+    if (!tidemark::solver::constrain(*there, pages_.phi(page))) continue;
     pages_.refresh(page);
     quiet_.wake_around(page);
-  });
+  }
   return {};
 }
 
@@ -123,10 +134,13 @@ Status PageEdits::paint(const Sphere& sphere, Brush brush) {
                       contents_.geometry.to_voxel(sphere.centre_mm),
                       contents_.model.smallest_spacing_mm(),
                       static_cast<float>(contents_.model.band())};
+  const PageTable& table = pages_.table();
+  std::vector<std::int64_t> below;  // the pages under the stroke
   std::vector<std::int64_t> to_allocate;
   std::vector<Index3> to_flip;  // pages that are not resident and change from all outside to inside or back
   Values values;
   stroke.for_each_page([&](Index3 coordinates) {
+    below.push_back(table.layout().page_number(coordinates));
     const PhysicalPage page = pages_.table().physical(coordinates);
     if (!is_static_page(page)) return;
     stroke.paint(coordinates, pages_.phi(page), values);
@@ -155,8 +169,8 @@ Status PageEdits::paint(const Sphere& sphere, Brush brush) {
     pages_.refresh(page);
     quiet_.wake_around(page);
   });
-  TIDEMARK_TRY(constrain());
-  return pages_.activate_all();
+  TIDEMARK_TRY(constrain(below));
+  return pages_.activate_around(below);
 }
 
 }  // namespace tidemark::solver

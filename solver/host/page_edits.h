@@ -1,6 +1,8 @@
 // Replacing and painting phi in the host executor.
 #pragma once
 
+#include <vector>
+
 #include "solver/executor.h"
 #include "solver/host/quiet_pages.h"
 #include "solver/host/resident_pages.h"
@@ -20,6 +22,8 @@ class PageEdits {
   Status constrain();
 
  private:
+  Status constrain(const std::vector<std::int64_t>& virtual_pages);
+
   ResidentPages::Contents contents_;
   ResidentPages& pages_;
   QuietPages& quiet_;

@@ -17,6 +17,7 @@ constexpr bool within_stencil(int neighbour) {
 
 void QuietPages::clear() {
   active_.clear();
+  computed_ = false;
   count_ = 0;
   states_changed_ = true;
 }
@@ -100,6 +101,7 @@ void QuietPages::begin_window() {
 // In time linear in the resident pages.
 void QuietPages::refresh_active() {
   if (!active_list_is_stale()) return;
+  note_changes();
   active_.clear();
   pages_.for_each_in_order([&](PhysicalPage page) {
     const PageInfo& info = pages_.pool().info(page);
@@ -107,6 +109,15 @@ void QuietPages::refresh_active() {
   });
   states_changed_ = false;
   seen_changes_ = pages_.table().changes();
+}
+
+// Pages that were freed since are known to have changed.
+void QuietPages::note_changes() const {
+  if (!computed_) return;
+  for (const PhysicalPage page : active_) {
+    if (pages_.table().virtual_page(page) >= 0) pages_.note_change(page);
+  }
+  computed_ = false;
 }
 
 std::vector<std::int64_t> QuietPages::virtual_pages() const {

@@ -24,6 +24,10 @@ class QuietPages {
   // refresh_active() was last called.
   [[nodiscard]] const std::vector<PhysicalPage>& active() const { return active_; }
   void refresh_active();
+  // The active pages have been computed.
+  void computed() { computed_ = true; }
+  // Notes what was computed as changed.
+  void note_changes() const;
 
   void wake_around(PhysicalPage page);
   void wake_all();
@@ -55,6 +59,7 @@ class QuietPages {
   std::vector<PhysicalPage> active_;
   bool states_changed_ = true;      // pages fell asleep or woke since the active list was made
   std::int64_t seen_changes_ = -1;  // of the page table, when it was
+  mutable bool computed_ = false;   // the active pages were, and are not noted as changed
   std::int64_t count_ = 0;
 };
 

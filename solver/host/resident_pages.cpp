@@ -38,23 +38,26 @@ void ResidentPages::clear() {
   listed_.clear();
   listed_in_order_ = 0;
   needs_activation_ = false;
+  known_ = Field::empty(contents_.geometry, contents_.model.band());
+  changed_ = ChangedPages(table_.layout().page_count());
 }
 
 Field ResidentPages::copy() const {
-  Field field = Field::empty(contents_.geometry, contents_.model.band());
-  field.pages.reserve(static_cast<std::size_t>(table_.resident() * kPageVoxels));
-  for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
+  Field field = known_;
+  changed_.take([&](std::int64_t page) {
     const PhysicalPage physical = table_.physical(page);
-    std::int32_t& entry = field.table[static_cast<std::size_t>(page)];
-    if (physical == kInsidePage) {
-      entry = Field::kInside;
-    } else if (physical != kOutsidePage) {
-      entry = static_cast<std::int32_t>(field.resident_pages());
-      const float* values = phi(physical);
-      field.pages.insert(field.pages.end(), values, values + kPageVoxels);
+    if (is_static_page(physical)) {
+      field.pages.set_constant(page, physical == kInsidePage ? Field::Kind::inside : Field::Kind::outside);
+    } else {
+      field.update_page(page, phi(physical));
     }
-  }
-  return field;
+  });
+  return known_ = std::move(field);
+}
+
+void ResidentPages::know(const SharedPages& pages) {
+  known_.pages = pages;
+  changed_ = ChangedPages(table_.layout().page_count());
 }
 
 Status ResidentPages::check_budget(std::int64_t more_pages) const {
@@ -140,13 +143,33 @@ Status ResidentPages::grant_requests(PhysicalPage page, std::uint8_t code) {
 }
 
 Status ResidentPages::activate_all() {
+  std::vector<PhysicalPage> pages;
+  for_each([&](PhysicalPage page) { pages.push_back(page); });
   needs_activation_ = false;
-  // Pages that are made resident on the way may ask for more.
-  Status result;
-  for (PhysicalPage page = kFirstPage; page < table_.capacity() && result; ++page) {
-    if (table_.virtual_page(page) < 0) continue;
-    result = grant_requests(page, requests(page, current_));
+  return activate(pages);
+}
+
+Status ResidentPages::activate_around(const std::vector<std::int64_t>& virtual_pages) {
+  if (needs_activation_) return activate_all();
+  std::vector<PhysicalPage> pages;
+  for (const std::int64_t virtual_page : virtual_pages) {
+    const Index3 coordinates = table_.layout().page_coordinates(virtual_page);
+    for (int n = 0; n < kNeighbours; ++n) {
+      if (const PhysicalPage page = table_.physical(coordinates + neighbour_step(n)); page >= kFirstPage)
+        pages.push_back(page);
+    }
   }
+  std::sort(pages.begin(), pages.end());
+  pages.erase(std::unique(pages.begin(), pages.end()), pages.end());
+  return activate(pages);
+}
+
+Status ResidentPages::activate(const std::vector<PhysicalPage>& pages) {
+  Status result;
+  for (std::size_t i = 0; i < pages.size() && result; ++i) {
+    result = grant_requests(pages[i], requests(pages[i], current_));
+  }
+  // Pages that are made resident on the way may ask for more.
   for (std::size_t i = 0; i < new_pages_.size() && result; ++i) {
     result = grant_requests(new_pages_[i], requests(new_pages_[i], current_));
   }
@@ -167,6 +190,7 @@ Result<PhysicalPage> ResidentPages::make_resident(std::int64_t virtual_page) {
   link_neighbours(page);
   new_pages_.push_back(page);
   listed_.push_back(virtual_page);
+  changed_.add(virtual_page);
   peak_ = std::max(peak_, table_.resident());
   return page;
 }
@@ -225,11 +249,14 @@ void ResidentPages::release_if_surrounded(PhysicalPage page) {
   if (!surroundings_are_constant(page, inside)) return;
   const std::int64_t virtual_page = table_.virtual_page(page);
   table_.release(virtual_page, inside);
+  changed_.add(virtual_page);
   tell_neighbours(table_.layout().page_coordinates(virtual_page), inside ? kInsidePage : kOutsidePage);
 }
 
 void ResidentPages::set_static(Index3 coordinates, bool inside) {
-  table_.set_static(table_.layout().page_number(coordinates), inside);
+  const std::int64_t page = table_.layout().page_number(coordinates);
+  table_.set_static(page, inside);
+  changed_.add(page);
   tell_neighbours(coordinates, inside ? kInsidePage : kOutsidePage);
 }
 
@@ -238,6 +265,7 @@ void ResidentPages::refresh(PhysicalPage page) {
   pool_.masks(0, page) = pool_.masks(1, page) =
       masks_of(phi(page), info.valid[0], info.padding, constant(true));
   std::copy_n(phi(page), kPageVoxels, pool_.phi(1 - current_, page));
+  note_change(page);
 }
 
 // Only the new ones are sorted.

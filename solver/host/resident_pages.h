@@ -10,6 +10,7 @@
 #include "solver/field.h"
 #include "solver/host/page_pool.h"
 #include "solver/model.h"
+#include "solver/paging/changed_pages.h"
 
 namespace tidemark::solver {
 
@@ -34,7 +35,12 @@ class ResidentPages {
   [[nodiscard]] int current() const { return current_; }
   void swap_buffers() { current_ = 1 - current_; }
   [[nodiscard]] float* phi(PhysicalPage page) const { return pool_.phi(current_, page); }
+  // Shares what has not changed with the copy before it, and with the field that was restored.
   [[nodiscard]] Field copy() const;
+  // phi is what these pages say, to the last bit.
+  void know(const SharedPages& pages);
+  // phi of the page has changed.
+  void note_change(PhysicalPage page) const { changed_.add(table_.virtual_page(page)); }
 
   // Fails (ErrorKind::capability) when so many more pages are above the memory budget.
   [[nodiscard]] Status check_budget(std::int64_t more_pages) const;
@@ -42,8 +48,11 @@ class ResidentPages {
   // What a page asks for after a step that wrote `buffer`, as bits of page_code.h.
   [[nodiscard]] std::uint8_t requests(PhysicalPage page, int buffer);
   Status grant_requests(PhysicalPage page, std::uint8_t code);
-  // Grants the requests of every page, after phi was replaced or painted.
+  // Grants the requests of every page, after phi was replaced.
   Status activate_all();
+  // The same after these virtual pages have changed: nothing else asks for pages but they and those that they
+  // touch.
+  Status activate_around(const std::vector<std::int64_t>& virtual_pages);
   [[nodiscard]] bool needs_activation() const { return needs_activation_; }
 
   // Makes a page resident with the constant that stood for it. Its voxels are written by fill_new_pages().
@@ -95,6 +104,7 @@ class ResidentPages {
   void link_constraints(PhysicalPage page);
   [[nodiscard]] bool surroundings_are_constant(PhysicalPage page, bool inside) const;
   void put_in_order();
+  Status activate(const std::vector<PhysicalPage>& pages);
 
   Contents contents_;
   ThreadPool& threads_;
@@ -109,6 +119,8 @@ class ResidentPages {
   std::ptrdiff_t listed_in_order_ = 0;
   bool needs_activation_ = false;  // the budget stopped an allocation
   std::int64_t peak_ = 0;
+  mutable Field known_;           // the last copy
+  mutable ChangedPages changed_;  // since then
 };
 
 }  // namespace tidemark::solver

@@ -40,7 +40,7 @@ Status validate_face(const Field& phi, Index3 first, Index3 valid, int axis, int
       if (side > 0) voxel[axis] += valid[axis] - 1;
       const Index3 other = across(phi.geometry, voxel, axis, side);
       const std::int64_t page = phi.layout.translate(other).page;
-      if (phi.table[static_cast<std::size_t>(page)] >= 0) return {};  // resident
+      if (phi.pages.is_stored(page)) return {};
       if (phi.at(other) != phi.at(voxel)) {
         return fail(ErrorKind::internal,
                     "phi is {} at voxel ({}, {}, {}), beside a page that is not resident", phi.at(voxel),
@@ -57,7 +57,7 @@ Status validate(const Field& phi) {
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     const Index3 first = phi.layout.first_voxel(page);
     const Index3 valid = phi.layout.valid_shape(page);
-    if (phi.table[static_cast<std::size_t>(page)] >= 0) {
+    if (phi.pages.is_stored(page)) {
       TIDEMARK_TRY(validate_values(phi, first, valid));
     }
     for (int axis = 0; axis < 3; ++axis) {

@@ -141,18 +141,26 @@ void Constraints::set(const std::vector<Index3>& voxels, Constraint what) {
 
 void constrain(Field& phi, const Constraints& constraints) {
   const PageLayout& layout = constraints.layout();
-  const auto band = static_cast<float>(phi.band);
+  const std::int64_t voxels = phi.layout.voxels_per_page();
+  std::int64_t changed = -1;  // the page that was changed last
+  float* values = nullptr;    // its own
   const auto limit = [&](Index3 voxel, Constraint what) {
     const VirtualAddress address = phi.layout.translate(voxel);
-    std::int32_t& entry = phi.table[static_cast<std::size_t>(address.page)];
-    if (entry < 0) {
-      if (entry == (is_upper(what) ? Field::kOutside : Field::kInside)) return;
-      const float constant = entry == Field::kInside ? band : -band;
-      entry = static_cast<std::int32_t>(phi.resident_pages());
-      phi.pages.insert(phi.pages.end(), static_cast<std::size_t>(phi.layout.voxels_per_page()), constant);
+    if (address.page != changed) {
+      const Field::Kind kind = phi.pages.kind(address.page);
+      if (kind == (is_upper(what) ? Field::Kind::outside : Field::Kind::inside)) return;
+      if (kind == Field::Kind::stored) {
+        const float value = phi.pages.values(address.page)[address.offset];
+        if (limited(what, value) == value) return;
+        values = phi.pages.change(address.page);
+      } else {
+        const float constant = phi.constant(address.page);
+        values = phi.pages.store(address.page);
+        std::fill_n(values, voxels, constant);
+      }
+      changed = address.page;
     }
-    float& value = phi.pages[static_cast<std::size_t>(entry * phi.layout.voxels_per_page() + address.offset)];
-    value = limited(what, value);
+    values[address.offset] = limited(what, values[address.offset]);
   };
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     const Constraints::Page* there = constraints.page(page);

@@ -10,18 +10,17 @@ namespace {
 constexpr std::int64_t kSide = kDefaultPageShape.x;
 
 // Whether the pages of phi that hold the box are all inside or all outside; `side` is which.
-bool is_constant(const Field& phi, const VoxelBox& box, std::int32_t& side) {
+bool is_constant(const Field& phi, const VoxelBox& box, Field::Kind& side) {
   const Index3 shape = phi.layout.page_shape();
   const Index3 first = box.first / shape;
   const Index3 last = (box.first + box.size - Index3(1)) / shape;
-  const auto entry = [&](Index3 page) {
-    return phi.table[static_cast<std::size_t>(phi.layout.page_number(page))];
-  };
-  side = entry(first);
+  const auto kind = [&](Index3 page) { return phi.pages.kind(phi.layout.page_number(page)); };
+  side = kind(first);
+  if (side == Field::Kind::stored) return false;
   for (std::int64_t z = first.z; z <= last.z; ++z) {
     for (std::int64_t y = first.y; y <= last.y; ++y) {
       for (std::int64_t x = first.x; x <= last.x; ++x) {
-        if (const std::int32_t one = entry({x, y, z}); one >= 0 || one != side) return false;
+        if (kind({x, y, z}) != side) return false;
       }
     }
   }
@@ -36,14 +35,14 @@ std::uint64_t inside_of_row(const Field& phi, Index3 first, std::int64_t length)
     const Index3 voxel = first + Index3(x, 0, 0);
     const VirtualAddress address = phi.layout.translate(voxel);
     const std::int64_t end = std::min(length, x + page_length - voxel.x % page_length);
-    const std::int32_t entry = phi.table[static_cast<std::size_t>(address.page)];
-    if (entry < 0) {
+    const float* value = phi.pages.values(address.page);
+    if (value == nullptr) {
       const std::uint64_t all = (std::uint64_t{1} << (end - x)) - 1;
-      if (entry == Field::kInside) inside |= all << x;
+      if (phi.pages.kind(address.page) == Field::Kind::inside) inside |= all << x;
       x = end;
       continue;
     }
-    const float* value = phi.pages.data() + entry * phi.layout.voxels_per_page() + address.offset;
+    value += address.offset;
     for (; x < end; ++x) inside |= std::uint64_t(*value++ > 0.0F) << x;
   }
   return inside;
@@ -67,12 +66,16 @@ InsideMask::InsideMask(const Field& phi)
   for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
     std::int32_t& entry = table_[static_cast<std::size_t>(page)];
     const VoxelBox box{layout_.first_voxel(page), layout_.valid_shape(page)};
-    if (is_constant(phi, box, entry)) continue;
+    Field::Kind side{};
+    if (is_constant(phi, box, side)) {
+      entry = side == Field::Kind::inside ? kAllInside : kAllOutside;
+      continue;
+    }
     const Bits inside = inside_of(phi, box);
     std::int64_t count = 0;
     for (const std::uint64_t slice : inside) count += std::popcount(slice);
     if (count == 0 || count == box.voxels()) {
-      entry = count == 0 ? Field::kOutside : Field::kInside;
+      entry = count == 0 ? kAllOutside : kAllInside;
     } else {
       entry = static_cast<std::int32_t>(pages_.size());
       pages_.push_back(inside);
@@ -96,7 +99,7 @@ Block InsideMask::values_in(const VoxelBox& box) const {
         const std::int64_t end = page_end > last.x ? end_x : std::min(page_end, end_x);
         const std::int32_t entry = table_[static_cast<std::size_t>(first_page + page_x)];
         if (entry < 0) {
-          value = std::fill_n(value, end - x, entry == Field::kInside ? 1.0F : 0.0F);
+          value = std::fill_n(value, end - x, entry == kAllInside ? 1.0F : 0.0F);
           x = end;
           continue;
         }

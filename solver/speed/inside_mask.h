@@ -27,7 +27,9 @@ class InsideMask {
   using Bits = std::array<std::uint64_t, 8>;
   static Bits inside_of(const Field& phi, const VoxelBox& box);
   PageLayout layout_;
-  std::vector<std::int32_t> table_;  // as Field::table
+  static constexpr std::int32_t kAllOutside = -1;
+  static constexpr std::int32_t kAllInside = -2;
+  std::vector<std::int32_t> table_;  // a page's index in pages_, or one of these
   std::vector<Bits> pages_;
 };
 

@@ -32,7 +32,7 @@ Constraint limit_at(double distance, double within) {
   return distance < 0.0 ? upper : lower;
 }
 
-// Voxels that are not resident are farther from the mask's surface than any limit.
+// Voxels that are not stored are farther from the mask's surface than any limit.
 std::shared_ptr<const Constraints> constraints_of(const Field& distance, double within) {
   auto constraints = std::make_shared<Constraints>(distance.geometry.size);
   const PageLayout& layout = distance.layout;
@@ -42,16 +42,16 @@ std::shared_ptr<const Constraints> constraints_of(const Field& distance, double 
   const auto far = even(Constraint::wall);
   const auto deep = even(Constraint::anchor);
   for (std::int64_t number = 0; number < layout.page_count(); ++number) {
-    const std::int32_t entry = distance.table[static_cast<std::size_t>(number)];
+    const float* const values = distance.pages.values(number);
+    const bool is_outside = distance.pages.kind(number) == Field::Kind::outside;
     const Index3 valid = layout.valid_shape(number);
-    if (entry < 0 && valid == kDefaultPageShape) {
-      constraints->set_page(number, entry == Field::kOutside ? far : deep);
+    if (values == nullptr && valid == kDefaultPageShape) {
+      constraints->set_page(number, is_outside ? far : deep);
       continue;
     }
     const auto at = [&](std::int64_t i) {
-      if (entry < 0) return entry == Field::kOutside ? Constraint::wall : Constraint::anchor;
-      const float d = distance.pages[static_cast<std::size_t>(entry * layout.voxels_per_page() + i)];
-      return limit_at(static_cast<double>(d), within);
+      if (values == nullptr) return is_outside ? Constraint::wall : Constraint::anchor;
+      return limit_at(static_cast<double>(values[i]), within);
     };
     auto page = std::make_shared<const Page>(page_of(valid, at));
     const bool is_free =

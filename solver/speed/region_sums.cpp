@@ -37,15 +37,15 @@ std::optional<RegionMeans> RegionSums::means(const Field& phi) const {
   std::int64_t count = 0;
   with_type(*source_, [&](const auto& typed) {
     for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
-      const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
-      if (entry == Field::kOutside) continue;
-      if (entry == Field::kInside) {
+      const Field::Kind kind = phi.pages.kind(page);
+      if (kind == Field::Kind::outside) continue;
+      if (kind == Field::Kind::inside) {
         const Index3 shape = layout_.valid_shape(page);
         sum += sums_[static_cast<std::size_t>(page)];
         count += shape.x * shape.y * shape.z;
         continue;
       }
-      const float* values = phi.pages.data() + entry * layout_.voxels_per_page();
+      const float* const values = phi.pages.values(page);
       for_each_row(typed.geometry, layout_, page,
                    [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
                      for (std::int64_t x = 0; x < length; ++x) {

@@ -64,23 +64,19 @@ bool all_equal(const std::vector<float>& values, float value) {
 
 Status StreamExecutor::replace(const Field& phi) {
   constexpr std::int64_t kFewPages = 16;
-  const std::int64_t pages = phi.resident_pages() + kFirstPage + kFewPages;
+  const std::int64_t pages = phi.pages.stored() + kFirstPage + kFewPages;
   TIDEMARK_TRY(check_budget(pages, state_bytes(pages)));
   auto memory = PhysicalMemory::create(*device_, layout_, pages, static_cast<float>(band()));
   if (!memory) return pass_on(memory);
   memory->field().upload(phi.pages);
   memory_ = std::move(*memory);
 
-  // Pages are allocated in the order in which they lie in the field.
   table_ = PageTable(layout_.layout());
   viewed_changes_ = evaluated_changes_ = -1;
-  std::vector<std::int64_t> in_order(static_cast<std::size_t>(phi.resident_pages()));
   for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
-    const std::int32_t entry = phi.table[static_cast<std::size_t>(page)];
-    if (entry == Field::kInside) table_.set_static(page, true);
-    if (entry >= 0) in_order[static_cast<std::size_t>(entry)] = page;
+    if (phi.pages.kind(page) == Field::Kind::inside) table_.set_static(page, true);
   }
-  for (const std::int64_t page : in_order) table_.allocate(page);
+  for (const std::int64_t page : phi.pages.stored_pages()) table_.allocate(page);
   infos_.assign(static_cast<std::size_t>(table_.capacity()), PageInfo());
   for (auto& pages_to_fill : new_) pages_to_fill.clear();
   current_ = 0;
@@ -96,21 +92,9 @@ Result<Field> StreamExecutor::snapshot() const {
   TIDEMARK_TRY(device_->make_current());
   auto physical = memory_.field().download(current_);
   if (!physical) return pass_on(physical);
-  Field phi = Field::empty(source_->geometry, band(), layout_.layout().page_shape());
-  const std::int64_t voxels = layout_.layout().voxels_per_page();
-  phi.pages.reserve(static_cast<std::size_t>(table_.resident() * voxels));
-  for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
-    std::int32_t& entry = phi.table[static_cast<std::size_t>(page)];
-    const PhysicalPage from = table_.physical(page);
-    if (from == kInsidePage) {
-      entry = Field::kInside;
-    } else if (from != kOutsidePage) {
-      entry = static_cast<std::int32_t>(phi.resident_pages());
-      const float* values = physical->data() + from * voxels;
-      phi.pages.insert(phi.pages.end(), values, values + voxels);
-    }
-  }
-  return phi;
+  Field phi = known_;
+  update(phi, table_.entries(), *physical);
+  return known_ = std::move(phi);
 }
 
 Status StreamExecutor::make_current() const {

@@ -74,7 +74,7 @@ class PhiPictureTest : public QObject {
       QCOMPARE(failure(picture->update(**device, phi, {})), QString());
       QVERIFY(read_back(*picture) == phi.dense());
       QCOMPARE(failure(picture->table().validate()), QString());
-      QCOMPARE(picture->table().resident(), phi.resident_pages());
+      QCOMPARE(picture->table().resident(), phi.pages.stored());
     }
     QCOMPARE((*device)->severe_messages(), 0);
   }
@@ -83,11 +83,11 @@ class PhiPictureTest : public QObject {
     const Geometry geometry = grid({64, 64, 64});
     const Scene scene = ball_scene(geometry, 20.0);
     Painter draw(scene);
-    QCOMPARE(draw.gl().pages_uploaded(), scene.phi.resident_pages());
+    QCOMPARE(draw.gl().pages_uploaded(), scene.phi.pages.stored());
     QCOMPARE(failure(draw.renderer().set_phi(scene.phi)), QString());
     QCOMPARE(draw.gl().pages_uploaded(), 0);
     solver::Field touched = scene.phi;
-    touched.pages[5] += 0.25F;
+    touched.pages.change(touched.pages.stored_pages().front())[5] += 0.25F;
     QCOMPARE(failure(draw.renderer().set_phi(touched)), QString());
     QCOMPARE(draw.gl().pages_uploaded(), 1);
   }

@@ -37,7 +37,7 @@ struct Evolution {
 };
 
 bool same_bits(const solver::Field& a, const solver::Field& b) {
-  return a.table == b.table && a.pages == b.pages;
+  return same_pages(a, b);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class Counting final : public SpeedFunction, public LocallyFollowing {
   }
   bool follows_surface() const override { return true; }
   std::shared_ptr<const SpeedFunction> following(const Field& phi) const override {
-    if (phi.table.empty()) return nullptr;
+    if (phi.pages.size() == 0) return nullptr;
     auto next = std::make_shared<Counting>(-sign_);
     next->changed_from_x = changed_from_x;
     return next;

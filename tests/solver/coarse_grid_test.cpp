@@ -122,8 +122,8 @@ class CoarseGridTest : public QObject {
     }
     QVERIFY2(most < 0.25F, qPrintable(QString::number(static_cast<double>(most))));
     // Pages that are all inside or all outside are not kept.
-    QVERIFY(made.resident_pages() <= wanted.resident_pages() + wanted.resident_pages() / 10);
-    QVERIFY(made.resident_pages() > 0);
+    QVERIFY(made.pages.stored() <= wanted.pages.stored() + wanted.pages.stored() / 10);
+    QVERIFY(made.pages.stored() > 0);
   }
 
   void a_block_is_inside_where_half_of_it_is() {

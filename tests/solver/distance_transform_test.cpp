@@ -97,7 +97,7 @@ class DistanceTransformTest : public QObject {
         for (const Index3 shape : kShapes) {
           const solver::Field phi = solver::distance_transform(mask, band, shape);
           const solver::Field dense = solver::Field::from_dense(mask.geometry, wanted, band, shape);
-          QVERIFY(phi.table == dense.table);
+          QVERIFY(phi.pages.stored_pages() == dense.pages.stored_pages());
           QVERIFY(phi.dense() == wanted);
         }
       }
@@ -110,7 +110,7 @@ class DistanceTransformTest : public QObject {
       const Mask mask{geometry,
                       std::vector<std::uint8_t>(static_cast<std::size_t>(geometry.voxel_count()), value)};
       const solver::Field phi = solver::distance_transform(mask, 2.5);
-      QCOMPARE(phi.resident_pages(), std::int64_t{0});
+      QCOMPARE(phi.pages.stored(), std::int64_t{0});
       QVERIFY(phi.has_inside() == (value != 0));
     }
   }

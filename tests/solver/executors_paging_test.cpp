@@ -189,9 +189,9 @@ class ExecutorsPagingTest : public QObject {
     const std::vector<std::int64_t> at_rest = level_set->quiet_pages().value();
     const solver::Field phi = level_set->snapshot().value();
     QVERIFY(at_rest.size() > 20);
-    QCOMPARE(static_cast<std::int64_t>(at_rest.size()), phi.resident_pages());
+    QCOMPARE(static_cast<std::int64_t>(at_rest.size()), phi.pages.stored());
     QCOMPARE(static_cast<std::int64_t>(at_rest.size()), level_set->memory().quiet_pages);
-    for (const std::int64_t page : at_rest) QVERIFY(phi.table[static_cast<std::size_t>(page)] >= 0);
+    for (const std::int64_t page : at_rest) QVERIFY(phi.pages.is_stored(page));
 
     // A dent in the surface, on the low side of x.
     Index3 voxel(0, 20, 17);

@@ -89,8 +89,8 @@ class PagingTest : public QObject {
     for (const Index3 shape : kShapes) {
       const solver::Field field = solver::Field::from_dense(geometry, values, 2.5, shape);
       QCOMPARE(field.dense(), values);
-      QVERIFY(field.resident_pages() > 0);
-      QVERIFY(field.resident_pages() < field.layout.page_count());
+      QVERIFY(field.pages.stored() > 0);
+      QVERIFY(field.pages.stored() < field.layout.page_count());
       QCOMPARE(field.mask().count(),
                std::int64_t(std::count_if(values.begin(), values.end(), [](float v) { return v > 0; })));
     }
@@ -112,7 +112,7 @@ class PagingTest : public QObject {
               solver::Field::from_dense(geometry, band > 2.5 ? wider : values, band, to);
           QCOMPARE(made.band, band);
           QVERIFY(made.layout == wanted.layout);
-          QVERIFY(made.table == wanted.table);
+          QVERIFY(made.pages.stored_pages() == wanted.pages.stored_pages());
           QVERIFY(made.dense() == wanted.dense());
         }
       }
@@ -129,14 +129,14 @@ class PagingTest : public QObject {
     const solver::Field field = level_set->snapshot().value();
     QCOMPARE(failure(validate(field)), QString());
     solver::Field broken = field;
-    broken.pages[100] = std::numeric_limits<float>::quiet_NaN();
+    const std::int64_t page = field.pages.stored_pages().front();
+    broken.pages.change(page)[100] = std::numeric_limits<float>::quiet_NaN();
     QVERIFY(!validate(broken));
     broken = field;
-    broken.pages[100] = 2.6F;
+    broken.pages.change(page)[100] = 2.6F;
     QVERIFY(!validate(broken));
     broken = field;  // a resident page dropped although its neighbours are not flat
-    broken.table[static_cast<std::size_t>(field.layout.translate({16, 16, 8}).page)] =
-        solver::Field::kOutside;
+    broken.pages.set_constant(field.layout.translate({16, 16, 8}).page, solver::Field::Kind::outside);
     QVERIFY(!validate(broken));
   }
 };

@@ -80,7 +80,7 @@ inline bool resident_pages_cover_what_is_not_flat(const solver::Field& field,
   for (std::int64_t i = 0; i < g.voxel_count(); ++i) {
     const Index3 v = g.voxel_at(i);
     const std::int64_t page = field.layout.translate(v).page;
-    if (field.table[static_cast<std::size_t>(page)] < 0 && !is_flat(phi, g, v)) return false;
+    if (!field.pages.is_stored(page) && !is_flat(phi, g, v)) return false;
   }
   return true;
 }

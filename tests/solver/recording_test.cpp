@@ -171,7 +171,7 @@ class RecordingTest : public QObject {
     const auto same = [&] {
       const solver::Field a = watched->snapshot().value();
       const solver::Field b = alone->snapshot().value();
-      return a.table == b.table && a.dense() == b.dense() &&
+      return a.pages.stored_pages() == b.pages.stored_pages() && a.dense() == b.dense() &&
              watched->quiet_pages().value() == alone->quiet_pages().value() &&
              watched->memory().state_bytes == alone->memory().state_bytes;
     };

@@ -131,7 +131,11 @@ class RescalingTest : public QObject {
       const auto level_set = executor(solver::ExecutorKind::host, zero_volume(geometry), rescaling_alone());
       solver::Field start = solver::distance_transform(mask_of(geometry, shape), level_set->band());
       const auto band = static_cast<float>(start.band);
-      for (float& phi : start.pages) phi = std::clamp(factor * phi, -band, band);
+      for (const std::int64_t page : start.pages.stored_pages()) {
+        float* const values = start.pages.change(page);
+        for (std::int64_t i = 0; i < start.layout.voxels_per_page(); ++i)
+          values[i] = std::clamp(factor * values[i], -band, band);
+      }
       QVERIFY(level_set->restore(start));
       run(*level_set, 300);
       const std::vector<float> phi = level_set->snapshot().value().dense();

@@ -52,7 +52,7 @@ void CameraFollower::follow() {
   converged_ = state.converged;
   if (state.phi == seen_ && !ends) return;
   seen_ = state.phi;
-  if (!is_own() || seen_->resident_pages() == 0) return;
+  if (!is_own() || seen_->pages.stored() == 0) return;
   if (ends) return glide_to(on_surface(camera(), 1.0));
   const bool first = !own_;
   const bool moves = glide_.state() == QAbstractAnimation::Running;
@@ -66,7 +66,7 @@ void CameraFollower::follow() {
 // `room`: times the surface's own extent.
 renderer::Camera CameraFollower::on_surface(const renderer::Camera& from, double room) const {
   const auto& phi = proxy_.state().phi;
-  if (!phi || phi->resident_pages() == 0) return from;
+  if (!phi || phi->pages.stored() == 0) return from;
   renderer::Camera next = from.on(renderer::box_around(*phi), proxy_.volume().geometry, aspect_());
   next.zoom = std::clamp(next.zoom / room, kLeastZoom, kMostZoom);
   return next;

@@ -1,0 +1,57 @@
+// Statistics of a volume's values by region.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "document/labels.h"
+#include "solver/field.h"
+
+namespace tidemark::document {
+
+// Figures of the inside of a label or a surface.
+struct RegionStatistics {
+  std::int64_t voxels = 0;
+  double volume_ml = 0.0;
+  double mean = 0.0;                // of the volume's values, in its units
+  double standard_deviation = 0.0;  // of the population
+};
+
+// Of all labels at once, by id (256 entries).
+std::vector<RegionStatistics> statistics_by_label(const Volume& volume, const Labels& labels);
+
+// Sums of stored values. The shift keeps the squares small where all values are far from 0 (Welford's update
+// would divide at every voxel).
+struct ValueSums {
+  std::int64_t voxels = 0;
+  double shift = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+
+  void add(double stored) {
+    if (voxels++ == 0) shift = stored;
+    const double d = stored - shift;
+    sum += d;
+    squares += d * d;
+  }
+  [[nodiscard]] RegionStatistics result(const Volume& volume) const;
+};
+
+// Of what is inside one copy of a level set after the other: what a copy shares with the one before is not
+// looked at again.
+class InsideStatistics {
+ public:
+  // phi must be on the volume's grid.
+  RegionStatistics measure(const std::shared_ptr<const Volume>& volume, const solver::Field& phi);
+
+ private:
+  void begin(const std::shared_ptr<const Volume>& volume, const solver::Field& phi);
+  [[nodiscard]] ValueSums sums_of(const solver::SharedPages& pages, std::int64_t page) const;
+
+  std::shared_ptr<const Volume> volume_;  // null: nothing was measured
+  solver::PageLayout layout_;
+  solver::SharedPages measured_;
+  ValueSums sums_;
+};
+
+}  // namespace tidemark::document
