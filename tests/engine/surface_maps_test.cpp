@@ -1,7 +1,6 @@
 // The maps of distances that colour the surface.
 #include "engine/surface_maps.h"
 
-#include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test {
