@@ -16,6 +16,7 @@ Agreement::Agreement(const std::vector<const InsideBits*>& surfaces, Index3 grid
   Index3 high(0);
   for (const InsideBits* inside : surfaces) {
     if (inside->count() == 0) continue;
+    ++not_empty_;
     low = glm::min(low, inside->first());
     high = glm::max(high, inside->first() + inside->size());
   }

@@ -16,6 +16,7 @@ class Agreement {
   Agreement(const std::vector<const InsideBits*>& surfaces, Index3 grid_size);
 
   [[nodiscard]] int surfaces() const { return surfaces_; }
+  [[nodiscard]] int not_empty() const { return not_empty_; }  // that have a voxel inside
   // The box: its first voxel and its size; outside of it no surface has a voxel inside.
   [[nodiscard]] Index3 first() const { return first_; }
   [[nodiscard]] Index3 size() const { return size_; }
@@ -31,6 +32,7 @@ class Agreement {
 
  private:
   int surfaces_ = 0;
+  int not_empty_ = 0;
   Index3 first_{0};
   Index3 size_{0};
   std::vector<std::uint8_t> counts_;

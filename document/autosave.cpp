@@ -81,13 +81,7 @@ void Autosave::finish() {
 
 std::vector<Recoverable> find_recoverable(const std::filesystem::path& folder) {
   std::vector<Recoverable> found;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    const std::string case_id = name.substr(0, name.find('.'));
-    const auto same = [&](const Recoverable& one) { return one.case_id == case_id; };
-    if (!is_copy_id(case_id) || !name.ends_with(kSeal)) continue;
-    if (std::any_of(found.begin(), found.end(), same) || is_held(folder, case_id)) continue;
+  for (const std::string& case_id : left_copies(folder, kSeal)) {
     Recoverable newest{case_id, 0, {}, {}};
     for (int slot = 0; slot < kGenerations; ++slot) {
       const auto file = session_file(folder, case_id, slot);

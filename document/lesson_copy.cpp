@@ -118,11 +118,8 @@ void LessonCopy::finish() {
 
 std::vector<RescuedLesson> find_rescued_lessons(const std::filesystem::path& folder) {
   std::vector<RescuedLesson> found;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string id = entry.path().stem().string();
-    if (entry.path().extension() != kSuffix || !is_copy_id(id) || is_held(folder, id)) continue;
-    auto copy = read_copy(entry.path());
+  for (const std::string& id : left_copies(folder, kSuffix)) {
+    auto copy = read_copy(copy_file(folder, id));
     if (!copy) continue;
     copy->id = id;
     found.push_back(std::move(*copy));

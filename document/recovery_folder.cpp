@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <random>
+#include <utility>
 
 namespace tidemark::document {
 namespace {
@@ -55,6 +56,18 @@ Result<FileLock> hold_copy(const std::filesystem::path& folder, const std::strin
 bool is_held(const std::filesystem::path& folder, const std::string& id) {
   const auto file = lock_file(folder, id);
   return std::filesystem::exists(std::filesystem::symlink_status(file)) && !FileLock::take(file);
+}
+
+std::vector<std::string> left_copies(const std::filesystem::path& folder, std::string_view suffix) {
+  std::vector<std::string> ids;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    std::string id = name.substr(0, name.find('.'));
+    if (!name.ends_with(suffix) || !is_copy_id(id) || is_held(folder, id)) continue;
+    if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(std::move(id));
+  }
+  return ids;
 }
 
 void remove_hold(const std::filesystem::path& folder, const std::string& id) {

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/file_lock.h"
 #include "core/result.h"
@@ -18,6 +20,9 @@ namespace tidemark::document {
 Result<FileLock> hold_copy(const std::filesystem::path& folder, const std::string& id);
 // Whether a running program holds it.
 [[nodiscard]] bool is_held(const std::filesystem::path& folder, const std::string& id);
+// The ids of copies with a file "ID....SUFFIX" that no running program holds, each once.
+[[nodiscard]] std::vector<std::string> left_copies(const std::filesystem::path& folder,
+                                                   std::string_view suffix);
 void remove_hold(const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace tidemark::document

@@ -19,6 +19,7 @@ struct SessionContents {
   std::shared_ptr<const solver::Field> phi;
   std::vector<Label> labels;
   std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null: no voxel has a label
+  std::shared_ptr<const Mask> truth;  // the known answer, where it is not the study's own; null: none
   Curve curve;
   std::string view_state;
   SavedHistory history;  // empty: only the present state is known

@@ -20,6 +20,7 @@ constexpr std::string_view kJson = "session.json";
 constexpr std::string_view kTable = "phi.table";
 constexpr std::string_view kPages = "phi.pages";
 constexpr std::string_view kLabels = "labels";
+constexpr std::string_view kTruth = "truth";
 constexpr const char* kFormat = "tidemark session";
 constexpr std::size_t kLongestViewState = std::size_t{16} << 20;
 constexpr std::size_t kLongestName = 256;
@@ -249,6 +250,14 @@ Status read_label_voxels(ZipReader& archive, SessionContents& contents, const st
   return {};
 }
 
+Status read_truth(ZipReader& archive, SessionContents& contents) {
+  if (!archive.has(kTruth)) return {};
+  auto voxels = read_numbers<std::uint8_t>(archive, kTruth, contents.geometry.voxel_count());
+  if (!voxels) return pass_on(voxels);
+  contents.truth = std::make_shared<const Mask>(Mask{contents.geometry, std::move(*voxels)});
+  return {};
+}
+
 // A file of ours, of a version that can be read.
 struct OpenedSession {
   ZipReader archive;
@@ -280,8 +289,8 @@ Result<OpenedSession> open_session(const std::filesystem::path& file) {
 }  // namespace
 
 std::span<const std::string_view> session_entry_names() {
-  static constexpr std::array<std::string_view, 7> kNames{kJson,        kTable,         kPages,       kLabels,
-                                                          kHistoryJson, kHistoryTables, kHistoryPages};
+  static constexpr std::array<std::string_view, 8> kNames{
+      kJson, kTable, kPages, kLabels, kTruth, kHistoryJson, kHistoryTables, kHistoryPages};
   return kNames;
 }
 
@@ -296,6 +305,7 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
                                 {kTable, std::as_bytes(std::span(phi.tables()))},
                                 {kPages, std::as_bytes(std::span(phi.pages()))}};
   if (contents.label_voxels) entries.push_back({kLabels, std::as_bytes(std::span(*contents.label_voxels))});
+  if (contents.truth) entries.push_back({kTruth, std::as_bytes(std::span(contents.truth->voxels))});
   HistoryEntries history;
   if (what == InFile::all && !contents.history.empty()) {
     history = history_entries(contents);
@@ -331,6 +341,7 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   if (!phi) return pass_on(phi);
   contents.phi = std::move(*phi);
   TIDEMARK_TRY(read_label_voxels(opened->archive, contents, name));
+  TIDEMARK_TRY(read_truth(opened->archive, contents));
   TIDEMARK_TRY(read_history(opened->archive, contents, name));
   if (root.has("maps")) {
     for (SavedState& state : contents.history.states) read_maps(root.at("maps"), file, state.recipe);

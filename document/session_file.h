@@ -1,7 +1,8 @@
 // Session files (.tidemark): a case in one zip archive, but for the volume's voxels.
 //
-// Entries: session.json, phi.table (int32 a virtual page) and phi.pages (float), labels (uint8 a voxel, only
-// if there are any), and those of the history (history_file.h). Numbers are little-endian.
+// Entries: session.json, phi.table (int32 a virtual page) and phi.pages (float), labels and truth (uint8 a
+// voxel, each only where there are any), and those of the history (history_file.h). Numbers are
+// little-endian.
 #pragma once
 
 #include <filesystem>

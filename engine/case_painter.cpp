@@ -158,7 +158,7 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
 
 std::shared_ptr<const solver::SpeedFunction> CasePainter::shown_change(
     const document::LevelSet& level_set) const {
-  if (truth_error_) return truth_error_;
+  if (distances_) return distances_;
   const auto limit = level_set.recipe().start.limit();
   return limit == nullptr ? nullptr : limit->change();
 }

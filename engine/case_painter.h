@@ -42,10 +42,9 @@ class CasePainter {
   // What speed maps show; null: the tent.
   void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) { speed_ = std::move(speed); }
 
-  // How far voxels are from a known answer's surface, shown in place of how far the surface has moved; null:
-  // that is not wanted.
-  void set_truth_error(std::shared_ptr<const solver::SpeedFunction> error) {
-    truth_error_ = std::move(error);
+  // One of surface_maps.h, shown in place of how far the surface has moved; null: that is not wanted.
+  void set_distances(std::shared_ptr<const solver::SpeedFunction> distances) {
+    distances_ = std::move(distances);
     look_changed();
   }
 
@@ -106,7 +105,7 @@ class CasePainter {
   Canvas shown_;   // the volume as it was loaded
   Canvas solved_;  // the level set's source, where that is another one
   std::shared_ptr<const solver::SpeedFunction> speed_;
-  std::shared_ptr<const solver::SpeedFunction> truth_error_;
+  std::shared_ptr<const solver::SpeedFunction> distances_;
   std::shared_ptr<const solver::Field> phi_;
   std::int64_t phi_revision_ = 0;
   std::uint64_t look_revision_ = 1;

@@ -9,7 +9,8 @@
 #include "engine/case_runner.h"
 #include "engine/case_sweep.h"
 #include "engine/lock_step.h"
-#include "engine/truth_error.h"
+#include "engine/surface_maps.h"
+#include "engine/wanted_map.h"
 
 namespace tidemark::engine {
 
@@ -17,7 +18,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
                      RestoredCase restored)
     : engine_(engine),
       study_(std::move(study)),
-      truth_(study_->truth),
+      truth_(restored.truth(*study_)),
       weak_receiver_(WeakReceiver::of(this)),
       sweep_(std::make_unique<CaseSweep>(*this)),
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
@@ -33,16 +34,21 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
   runner_ = std::make_shared<CaseRunner>(engine_, study_, executor, std::move(receiver), std::move(restored));
   post([](CaseRunner& runner, const Progress&) { return runner.open(); });
   connect(&display_, &Display::changed, this, &CaseProxy::use_images_of_display);
-  truth_error_ = std::make_unique<TruthError>(display_, truth_, [this](const TruthError::Map& map) {
+  connect(&display_, &Display::changed, this, &CaseProxy::show_distances);
+  const auto show = [this](const WantedMap::Map& map) {
     post([map](CaseRunner& runner, const Progress&) {
-      runner.painter().set_truth_error(map);
+      runner.painter().set_distances(map);
       return Status();
     });
-  });
+  };
+  truth_error_ = std::make_unique<WantedMap>(show);
+  spread_ = std::make_unique<WantedMap>(show);
+  use_truth();
 }
 
 CaseProxy::~CaseProxy() {
   truth_error_.reset();
+  spread_.reset();
   balance_.reset();
   passes_.reset();
   weak_receiver_->close();
@@ -57,12 +63,28 @@ CaseProxy::~CaseProxy() {
 void CaseProxy::compare_with(std::shared_ptr<const Mask> truth) {
   truth_ = std::move(truth);
   state_.dice.reset();
-  truth_error_->set_truth(truth_);
+  use_truth();
   post([truth = truth_](CaseRunner& runner, const Progress&) {
     runner.compare_with(truth);
     return Status();
   });
   emit state_changed();
+}
+
+void CaseProxy::use_truth() {
+  truth_error_->set_make(truth_ ? [truth = truth_] { return truth_error_map(*truth); } : WantedMap::Make());
+}
+
+// One of them at a time. What is shown no more goes before the other one comes.
+void CaseProxy::show_distances() {
+  const auto& runs = display_.spread();
+  if (runs && runs != spread_runs_) {
+    spread_runs_ = runs;
+    spread_->set_make([runs, grid = volume().geometry] { return spread_map(*runs, grid); });
+  }
+  if (runs) truth_error_->set_wanted(false);
+  spread_->set_wanted(runs != nullptr);
+  truth_error_->set_wanted(!runs && display_.settings().truth_error);
 }
 
 std::uint64_t CaseProxy::new_gesture() {
@@ -279,7 +301,8 @@ void CaseProxy::take_snapshot(std::string view_state,
   using Taken = Result<std::shared_ptr<const Snapshot>>;
   std::vector<std::shared_ptr<const document::CaseImage>> images;
   for (const ShownImage& shown : display_.settings().images) images.push_back(shown.image);
-  post([view_state = std::move(view_state), images = std::move(images), answer = std::move(answer),
+  post([view_state = std::move(view_state), images = std::move(images),
+        truth = has_another_truth() ? truth_ : nullptr, answer = std::move(answer),
         gave_up = std::move(gave_up),
         weak_receiver = weak_receiver_](CaseRunner& runner, const Progress&) -> Status {
     const Taken taken = without_exceptions([&]() -> Taken {
@@ -289,6 +312,7 @@ void CaseProxy::take_snapshot(std::string view_state,
       auto contents = document::snapshot_of(document);
       if (!contents) return pass_on(contents);
       contents->images = images;
+      contents->truth = truth;
       return std::make_shared<const Snapshot>(Snapshot{std::move(*contents), document.history().position()});
     });
     if (taken) {

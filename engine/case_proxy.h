@@ -35,7 +35,7 @@ class CasePasses;
 class CaseRunner;
 class CaseSweep;
 class LockStep;
-class TruthError;
+class WantedMap;
 class WeakReceiver;
 struct RecordedStep;
 
@@ -43,6 +43,11 @@ struct RecordedStep;
 struct RestoredCase {
   std::shared_ptr<const document::SessionContents> contents;
   bool rescued = false;
+
+  // The known answer: its own, else the study's. Null: neither has one.
+  [[nodiscard]] const std::shared_ptr<const Mask>& truth(const LoadedStudy& study) const {
+    return contents && contents->truth ? contents->truth : study.truth;
+  }
 };
 
 // Lives on the thread of the user interface. Commands return at once; their outcome comes with
@@ -67,8 +72,10 @@ class CaseProxy : public QObject {
   [[nodiscard]] const QString& name() const { return study_->name; }
   // The known answer, on the volume's grid: a phantom's own, or another one; null: none.
   [[nodiscard]] const std::shared_ptr<const Mask>& truth() const { return truth_; }
-  // Figures are compared with it from now on. It must be on the volume's grid, and is in no session.
+  // Figures are compared with it from now on. It must be on the volume's grid.
   void compare_with(std::shared_ptr<const Mask> truth);
+  [[nodiscard]] bool has_another_truth() const { return truth_ != study_->truth; }
+  void compare_as_the_study() { compare_with(study_->truth); }
   [[nodiscard]] Display& display() { return display_; }
   [[nodiscard]] Engine& engine() { return engine_; }
   // Why the surface moves or rests at a place that the user has chosen.
@@ -178,6 +185,8 @@ class CaseProxy : public QObject {
   void post(Command command);
   void take(CaseState state);
   void use_images_of_display();
+  void use_truth();
+  void show_distances();
   void show_images_of_drive();
   void set_playing(bool playing);
 
@@ -192,7 +201,9 @@ class CaseProxy : public QObject {
   std::unique_ptr<CaseSweep> sweep_;
   CaseState state_;
   std::unique_ptr<CaseBalance> balance_;
-  std::unique_ptr<TruthError> truth_error_;
+  std::unique_ptr<WantedMap> truth_error_;
+  std::unique_ptr<WantedMap> spread_;
+  std::shared_ptr<const document::Agreement> spread_runs_;  // as `spread_` has them
   solver::Parameters wanted_parameters_;
   document::Drive wanted_drive_;
   std::int64_t steps_per_picture_ = 0;

@@ -19,7 +19,7 @@ CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
       painter_(engine),
       history_(study_->summary.window),
       post_(receiver_.weak_receiver, receiver_.state_arrived) {
-  meter_.compare_with(study_->truth);
+  meter_.compare_with(restored_.truth(*study_));
 }
 
 void CaseRunner::post(Command command) {

@@ -100,6 +100,11 @@ void CaseSweep::cancel() {
   give_up();
 }
 
+std::shared_ptr<const document::Agreement> CaseSweep::agreement() const {
+  if (!outcome_ || outcome_->sweep.agreement.not_empty() == 0) return nullptr;
+  return {outcome_, &outcome_->sweep.agreement};
+}
+
 void CaseSweep::take(int column, int row) {
   if (outcome_) proxy_.take_run({outcome_, &outcome_->start}, outcome_->sweep.at(column, row));
 }

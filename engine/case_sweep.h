@@ -34,6 +34,9 @@ class CaseSweep : public JobRunner {
   [[nodiscard]] bool running() const { return waiting_ || busy(); }
   [[nodiscard]] const std::shared_ptr<const SweepOutcome>& outcome() const { return outcome_; }  // or null
 
+  // Of the outcome's runs; null: there is none, or all their surfaces have vanished.
+  [[nodiscard]] std::shared_ptr<const document::Agreement> agreement() const;
+
   // The case becomes that run. An entry of its history.
   void take(int column, int row);
 

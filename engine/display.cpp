@@ -45,4 +45,10 @@ void Display::set_agreement(std::optional<ShownImage> agreement) {
   emit changed();
 }
 
+void Display::set_spread(std::shared_ptr<const document::Agreement> runs) {
+  if (spread_ == runs) return;
+  spread_ = std::move(runs);
+  emit changed();
+}
+
 }  // namespace tidemark::engine

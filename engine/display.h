@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/result.h"
+#include "document/agreement.h"
 #include "engine/measurement.h"
 #include "engine/shown_image.h"
 #include "renderer/views.h"
@@ -131,6 +132,9 @@ class Display : public QObject {
   // What the runs of a sweep agree on, over the slices and all images; it is not saved.
   [[nodiscard]] const std::optional<ShownImage>& agreement() const { return agreement_; }
   void set_agreement(std::optional<ShownImage> agreement);
+  // The runs whose surfaces lie apart as the surface's colours tell; null: none. Nor is it saved.
+  [[nodiscard]] const std::shared_ptr<const document::Agreement>& spread() const { return spread_; }
+  void set_spread(std::shared_ptr<const document::Agreement> runs);
 
  signals:
   void changed();
@@ -142,6 +146,7 @@ class Display : public QObject {
   std::optional<DrawnSphere> drawn_sphere_;
   std::optional<DrawnMarks> drawn_marks_;
   std::optional<ShownImage> agreement_;
+  std::shared_ptr<const document::Agreement> spread_;
 };
 
 }  // namespace tidemark::engine

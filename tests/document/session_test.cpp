@@ -107,6 +107,27 @@ class SessionTest : public QObject {
     QVERIFY(values_of(after) == values_of(before));
   }
 
+  void a_truth_from_a_file_comes_back() {
+    const TemporaryFolder folder;
+    const auto document = labelled_case();
+    document::SessionContents contents = document::snapshot_of(*document).value();
+    QVERIFY(!contents.truth);
+    must(document::write_session(contents, folder / "none.tidemark"));
+    QVERIFY(!document::load_session(folder / "none.tidemark").value().truth);
+    contents.truth = std::make_shared<const Mask>(document->labels().mask(1));
+    QVERIFY(contents.truth->count() > 0);
+    must(document::write_session(contents, folder / "one.tidemark"));
+    const document::SessionContents again = document::load_session(folder / "one.tidemark").value();
+    QVERIFY(again.truth);
+    QVERIFY(again.truth->voxels == contents.truth->voxels);
+    QCOMPARE(again.truth->geometry.size, document->volume()->geometry.size);
+    Entries entries = entries_of(folder / "one.tidemark");
+    entries["truth"].resize(5);
+    write_entries(folder / "cut.tidemark", entries);
+    const QString why = failure(document::load_session(folder / "cut.tidemark"));
+    QVERIFY2(why.contains("truth has 5 bytes"), qPrintable(why));
+  }
+
   void a_session_from_before_there_were_curves_is_read() {
     const TemporaryFolder folder;
     must(document::save_session(*labelled_case(), folder / "new.tidemark"));

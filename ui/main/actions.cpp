@@ -72,6 +72,8 @@ void Actions::make_files() {
                        tr("Add labels from a DICOM segmentation, an RT structure set or a label map"));
   compare_with_mask = make("compare-with-mask", "target", tr("Compare wit&h a mask…"), {}, true,
                            tr("Dice and distances to a known answer from a file, while the surface moves"));
+  stop_comparing = make("stop-comparing", nullptr, tr("St&op comparing with the mask"), {}, true,
+                        tr("Go back to the phantom's own truth, or to none"));
   add_image = make("add-image", "add", tr("Add ima&ge file…"), {}, true,
                    tr("Show another image, such as PET over CT, on the slices of this case"));
   add_series = make("add-series", nullptr, tr("Add series of the st&udy…"), {}, true,
@@ -252,6 +254,7 @@ void Actions::follow(engine::CaseProxy* proxy) {
   for (QAction* action : of_cases_) action->setEnabled(proxy != nullptr);
   follow_evolution(proxy ? proxy->state() : kNothing);
   play->setEnabled(proxy && can_play(*proxy));
+  stop_comparing->setEnabled(proxy && proxy->has_another_truth());
   clip->setChecked(proxy && proxy->display().settings().clip_on);
   patient_text->setChecked(proxy && proxy->display().settings().patient_text);
   forces->setChecked(proxy && proxy->display().settings().forces);

@@ -31,6 +31,7 @@ class Actions : public QObject {
   QAction* add_series;
   QAction* import_labels;
   QAction* compare_with_mask;
+  QAction* stop_comparing;
   QAction* save;
   QAction* save_as;
   QAction* export_mask;

@@ -1,18 +1,16 @@
 #include "ui/main/case_results.h"
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QStatusBar>
 
 #include "imaging/pacs/configuration.h"
 #include "imaging/results/segments.h"
+#include "ui/main/ask_for_labels.h"
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
 #include "ui/opening/loading_view.h"
 #include "ui/results/send_result_dialog.h"
 #include "ui/results/write_result_dialog.h"
-#include "ui/settings.h"
-#include "ui/widgets/file_patterns.h"
 
 namespace tidemark::ui {
 namespace {
@@ -46,7 +44,10 @@ CaseResults::CaseResults(MainWindow& window)
   writes(actions.export_structure_set, ResultFile::structure_set);
   writes(actions.export_level_set, ResultFile::level_set);
   writes(actions.export_label_meshes, ResultFile::meshes);
-  with_case(actions.import_labels, [this](CaseWindow& into) { ask_and_import(into); });
+  with_case(actions.import_labels, [this](CaseWindow& into) {
+    ask_for_labels(window_, into, tr("Import labels"),
+                   [this](CaseWindow& of, const QString& file) { import_labels(of, file); });
+  });
   with_case(actions.send_result, [this, name = actions.send_result->objectName()](CaseWindow& of) {
     new_dialog<SendResultDialog>(of, name, imaging::pacs_configuration_file());
   });
@@ -75,18 +76,6 @@ void CaseResults::connect_jobs() {
     window_.open(waiting_.front().file);
     end_reading();
   });
-}
-
-void CaseResults::ask_and_import(CaseWindow& window) {
-  auto* dialog = new QFileDialog(
-      &window_, tr("Import labels"), settings::save_folder().get(),
-      tr("Segmentations and label maps (*.dcm %1);;All files (*)").arg(QLatin1String(kVolumePatterns)));
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setFileMode(QFileDialog::ExistingFile);
-  connect(dialog, &QFileDialog::fileSelected, this, [this, into = QPointer(&window)](const QString& file) {
-    if (into) import_labels(*into, file);
-  });
-  dialog->open();
 }
 
 void CaseResults::import_labels(CaseWindow& window, const QString& file) {

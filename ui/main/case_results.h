@@ -21,7 +21,6 @@ class CaseResults : public QObject {
  public:
   explicit CaseResults(MainWindow& window);
 
-  void ask_and_import(CaseWindow& window);
   void import_labels(CaseWindow& window, const QString& file);
   // DICOM segmentations and structure sets become labels of the active case. The window opens everything
   // else, and without a case everything.

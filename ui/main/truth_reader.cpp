@@ -2,7 +2,6 @@
 
 #include <QComboBox>
 #include <QDialogButtonBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QStatusBar>
@@ -10,11 +9,10 @@
 
 #include "engine/background_job.h"
 #include "imaging/results/segments.h"
+#include "ui/main/ask_for_labels.h"
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
 #include "ui/opening/loading_view.h"
-#include "ui/settings.h"
-#include "ui/widgets/file_patterns.h"
 
 namespace tidemark::ui {
 namespace {
@@ -29,7 +27,13 @@ TruthReader::TruthReader(MainWindow& window)
   progress_->hide();
   window.statusBar()->addPermanentWidget(progress_);
   connect(window.actions().compare_with_mask, &QAction::triggered, this, [this] {
-    if (CaseWindow* active = window_.active_case()) ask_for_file(*active);
+    if (CaseWindow* active = window_.active_case()) {
+      ask_for_labels(window_, *active, tr("Compare with a mask"),
+                     [this](CaseWindow& of, const QString& file) { read(of, file); });
+    }
+  });
+  connect(window.actions().stop_comparing, &QAction::triggered, this, [this] {
+    if (CaseWindow* active = window_.active_case()) active->proxy().compare_as_the_study();
   });
   connect(&jobs_, &engine::ResultJobs::progressed, progress_, &LoadingView::set_progress);
   connect(progress_, &LoadingView::cancelled, &jobs_, &engine::ResultJobs::cancel);
@@ -40,18 +44,6 @@ TruthReader::TruthReader(MainWindow& window)
 
 TruthReader::~TruthReader() {
   if (job_) job_->abandon();
-}
-
-void TruthReader::ask_for_file(CaseWindow& window) {
-  auto* dialog = new QFileDialog(
-      &window_, tr("Compare with a mask"), settings::save_folder().get(),
-      tr("Masks and segmentations (*.dcm %1);;All files (*)").arg(QLatin1String(kVolumePatterns)));
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setFileMode(QFileDialog::ExistingFile);
-  connect(dialog, &QFileDialog::fileSelected, this, [this, of = QPointer(&window)](const QString& file) {
-    if (of) read(*of, file);
-  });
-  dialog->open();
 }
 
 void TruthReader::read(CaseWindow& window, const QString& file) {

@@ -25,7 +25,6 @@ class TruthReader : public QObject {
   explicit TruthReader(MainWindow& window);
   ~TruthReader() override;
 
-  void ask_for_file(CaseWindow& window);
   // A mask, a label map, a DICOM Segmentation or a structure set. Of several regions the user chooses one.
   void read(CaseWindow& window, const QString& file);
 

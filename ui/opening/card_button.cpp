@@ -4,6 +4,7 @@
 #include <QFontMetrics>
 #include <QKeyEvent>
 #include <QPainter>
+#include <algorithm>
 
 namespace tidemark::ui {
 namespace {
@@ -14,6 +15,17 @@ constexpr double kRadius = 6.0;
 constexpr int kWishedWidth = 300;
 constexpr int kLeastWidth = 150;
 constexpr int kPictureSide = 56;
+constexpr int kWrapped = Qt::AlignTop | Qt::AlignLeft | Qt::TextWordWrap;
+
+int wrapped_height(const QFontMetrics& metrics, const QString& text, int room) {
+  return metrics.boundingRect(0, 0, room, 10'000, kWrapped, text).height();
+}
+
+int longest_word(const QFontMetrics& metrics, const QString& text) {
+  int longest = 0;
+  for (const QString& word : text.split(' ')) longest = std::max(longest, metrics.horizontalAdvance(word));
+  return longest;
+}
 
 }  // namespace
 
@@ -62,15 +74,22 @@ QSize CardButton::sizeHint() const {
 }
 
 QSize CardButton::minimumSizeHint() const {
-  return {kLeastWidth, heightForWidth(one_line_ ? kLeastWidth : kWishedWidth)};
+  if (one_line_) return {kLeastWidth, heightForWidth(kLeastWidth)};
+  const int word = std::max(longest_word(QFontMetrics(title_font()), text()),
+                            longest_word(QFontMetrics(font()), sentence_));
+  return {std::max(kLeastWidth, text_left() + word + kPadding), heightForWidth(kWishedWidth)};
+}
+
+int CardButton::title_height(int room) const {
+  const QFontMetrics title(title_font());
+  return one_line_ ? title.height() : wrapped_height(title, text(), room);
 }
 
 int CardButton::heightForWidth(int width) const {
   const QFontMetrics text(font());
   const int room = std::max(1, width - text_left() - kPadding);
-  const int lines =
-      one_line_ ? text.height() : text.boundingRect(0, 0, room, 10'000, Qt::TextWordWrap, sentence_).height();
-  const int texts = QFontMetrics(title_font()).height() + kGap + lines;
+  const int lines = one_line_ ? text.height() : wrapped_height(text, sentence_, room);
+  const int texts = title_height(room) + kGap + lines;
   return 2 * kPadding + std::max(texts, picture_.isNull() ? 0 : kPictureSide);
 }
 
@@ -118,18 +137,18 @@ void CardButton::paintEvent(QPaintEvent*) {
   const QPalette::ColorGroup group = isEnabled() ? QPalette::Active : QPalette::Disabled;
   const QColor strong = palette().color(group, QPalette::WindowText);
   const QRect inside = rect().adjusted(text_left(), kPadding, -kPadding, -kPadding);
-  const QFontMetrics title(title_font());
+  // As much of a text as has room.
+  const auto draw = [&](const QRect& room, const QString& text, Qt::TextElideMode elide) {
+    if (!one_line_) return painter.drawText(room, kWrapped, text);
+    painter.drawText(room, Qt::AlignTop | Qt::AlignLeft | Qt::TextSingleLine,
+                     painter.fontMetrics().elidedText(text, elide, room.width()));
+  };
   painter.setFont(title_font());
   painter.setPen(strong);
-  painter.drawText(inside, Qt::AlignTop | Qt::AlignLeft | Qt::TextSingleLine,
-                   title.elidedText(text(), Qt::ElideRight, inside.width()));
+  draw(inside, text(), Qt::ElideRight);
   painter.setFont(font());
   painter.setPen(mixed(strong, palette().color(QPalette::Base), 0.25));
-  const QRect below = inside.adjusted(0, title.height() + kGap, 0, 0);
-  const QString shown =
-      one_line_ ? fontMetrics().elidedText(sentence_, Qt::ElideMiddle, below.width()) : sentence_;
-  painter.drawText(below, Qt::AlignTop | Qt::AlignLeft | (one_line_ ? Qt::TextSingleLine : Qt::TextWordWrap),
-                   shown);
+  draw(inside.adjusted(0, title_height(inside.width()) + kGap, 0, 0), sentence_, Qt::ElideMiddle);
 }
 
 void CardButton::keyPressEvent(QKeyEvent* event) {

@@ -18,7 +18,8 @@ class CardButton : public QAbstractButton {
   // Whose pixels are square; null: none.
   void set_picture(const QImage& picture);
   [[nodiscard]] bool has_picture() const { return !picture_.isNull(); }
-  // The sentence stays on one line and loses its middle where it is too long (paths).
+  // Title and sentence stay on a line each, and are cut where they are too long, the sentence in its middle
+  // (paths). Else both are wrapped, and the card is never narrower than their longest word.
   void set_one_line(bool one_line);
 
   [[nodiscard]] QSize sizeHint() const override;
@@ -36,6 +37,7 @@ class CardButton : public QAbstractButton {
   void paint_frame(QPainter& painter) const;
   void paint_picture(QPainter& painter) const;
   [[nodiscard]] int text_left() const;
+  [[nodiscard]] int title_height(int room) const;
 
   QString sentence_;
   QPixmap picture_;

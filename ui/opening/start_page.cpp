@@ -7,7 +7,9 @@
 #include <QMimeData>
 #include <QPainter>
 #include <QScrollArea>
+#include <QStyle>
 #include <QToolButton>
+#include <algorithm>
 
 #include "imaging/phantom/phantom.h"
 #include "ui/opening/card_button.h"
@@ -20,7 +22,8 @@ namespace {
 
 constexpr int kContentWidth = 980;  // wider windows get margins
 constexpr int kTwoColumns = 720;    // from this width on
-constexpr int kMostRecent = 5;      // more are in the menu
+constexpr int kFrame = 3;
+constexpr int kMostRecent = 5;  // more are in the menu
 constexpr std::string_view kFirstToTry = "tumour";
 
 QLabel* label(const QString& text, double size, bool bold, QWidget* parent) {
@@ -69,7 +72,8 @@ void StartPage::build() {
   column->addSpacing(18);
   columns_ = new QBoxLayout(QBoxLayout::LeftToRight);
   columns_->setSpacing(36);
-  columns_->addWidget(build_opening(), 5);
+  opening_ = build_opening();
+  columns_->addWidget(opening_, 5);
   columns_->addWidget(build_phantoms(), 6);
   column->addLayout(columns_);
   column->addStretch(1);
@@ -85,7 +89,7 @@ void StartPage::build() {
   scroll->setWidget(centred);
   centred->setAutoFillBackground(false);
   auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(3, 3, 3, 3);  // for the frame while something is dragged over
+  whole->setContentsMargins(kFrame, kFrame, kFrame, kFrame);  // for the frame while something is dragged over
   whole->addWidget(scroll);
 }
 
@@ -153,9 +157,8 @@ QWidget* StartPage::build_phantoms() {
   column->setSpacing(8);
   column->addWidget(label(tr("Try a phantom"), 1.3, true, part));
   column->addWidget(label(tr("Made here in a moment, with a known answer."), 1.0, false, part));
-  auto* grid = new QGridLayout;
-  grid->setSpacing(8);
-  int place = 2;  // after the first, which has a row of its own
+  phantom_grid_ = new QGridLayout;
+  phantom_grid_->setSpacing(8);
   for (const std::string_view kind : imaging::phantom_kinds()) {
     const engine::PhantomText text = engine::phantom_text(kind);
     auto* card = new CardButton(text.title, text.sentence, part);
@@ -163,16 +166,11 @@ QWidget* StartPage::build_phantoms() {
     card->setObjectName(QStringLiteral("phantom_") + name);
     card->set_picture(QImage(QStringLiteral(":/tidemark/phantoms/%1.png").arg(name)));
     connect(card, &CardButton::clicked, this, [this, name] { emit phantom_chosen(name); });
-    if (kind == kFirstToTry) {
-      card->set_emphasised(true);
-      grid->addWidget(card, 0, 0, 1, 2);
-    } else {
-      const bool is_alone = kind == imaging::phantom_kinds().back() && place % 2 == 0;
-      grid->addWidget(card, place / 2, place % 2, 1, is_alone ? 2 : 1);
-      ++place;
-    }
+    card->set_emphasised(kind == kFirstToTry);
+    kind == kFirstToTry ? phantoms_.prepend(card) : phantoms_.append(card);
   }
-  column->addLayout(grid);
+  place_phantoms(true);
+  column->addLayout(phantom_grid_);
   column->addStretch(1);
   return part;
 }
@@ -199,9 +197,42 @@ void StartPage::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
 }
 
+// The first has a row of its own, and so has a last one without a neighbour.
+void StartPage::place_phantoms(bool in_pairs) {
+  const auto count = static_cast<int>(phantoms_.size());
+  for (int i = 0; i < count; ++i) {
+    const int place = i == 0 ? 0 : i + 1;
+    const bool is_alone = !in_pairs || i == 0 || (i == count - 1 && place % 2 == 0);
+    phantom_grid_->removeWidget(phantoms_[i]);
+    phantom_grid_->addWidget(phantoms_[i], in_pairs ? place / 2 : i, is_alone ? 0 : place % 2, 1,
+                             is_alone ? 2 : 1);
+  }
+}
+
+void StartPage::arrange() {
+  const QMargins margins = content_->layout()->contentsMargins();
+  const int room =
+      std::min(width() - style()->pixelMetric(QStyle::PM_ScrollBarExtent) - 2 * kFrame, kContentWidth) -
+      margins.left() - margins.right();
+  int card = 0;
+  for (const CardButton* phantom : phantoms_) card = std::max(card, phantom->minimumSizeHint().width());
+  const int pair = 2 * card + phantom_grid_->spacing();
+  const int beside = opening_->minimumSizeHint().width() + columns_->spacing() + pair;
+  const bool side_by_side = width() >= kTwoColumns && room >= beside;
+  columns_->setDirection(side_by_side ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  place_phantoms(room >= pair);
+}
+
 void StartPage::resizeEvent(QResizeEvent* event) {
-  columns_->setDirection(width() < kTwoColumns ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+  arrange();
   QWidget::resizeEvent(event);
+}
+
+// Queued, because the cards get a new font after it. Under a style sheet no other event says so.
+void StartPage::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::StyleChange)
+    QMetaObject::invokeMethod(this, &StartPage::arrange, Qt::QueuedConnection);
 }
 
 void StartPage::dragEnterEvent(QDragEnterEvent* event) {

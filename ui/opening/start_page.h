@@ -7,9 +7,12 @@
 #include "ui/opening/recent_studies.h"
 
 class QBoxLayout;
+class QGridLayout;
 class QVBoxLayout;
 
 namespace tidemark::ui {
+
+class CardButton;
 
 class StartPage : public QWidget {
   Q_OBJECT
@@ -31,6 +34,7 @@ class StartPage : public QWidget {
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   void build();
@@ -38,10 +42,15 @@ class StartPage : public QWidget {
   QWidget* build_lessons();
   QWidget* build_phantoms();
   void fill_recent();
+  void arrange();  // the columns that have room beside each other
+  void place_phantoms(bool in_pairs);
 
   RecentStudies& recent_;
   QBoxLayout* columns_ = nullptr;
+  QWidget* opening_ = nullptr;
   QVBoxLayout* recent_list_ = nullptr;
+  QGridLayout* phantom_grid_ = nullptr;
+  QList<CardButton*> phantoms_;  // the one to try first at the front
   QWidget* content_ = nullptr;
   bool is_dragged_over_ = false;
 };

@@ -83,6 +83,12 @@ QWidget* SweepPanel::make_outcome() {
     if (!sweep() || !sweep()->outcome()) return;
     proxy()->display().set_agreement(on ? std::optional(sweep()->outcome()->agreement) : std::nullopt);
   });
+  spread_ = form.check(tr("Agreement on the surface"),
+                       tr("In 3D, how far apart the surfaces of all runs lie: blue where they agree, orange "
+                          "where the parameters decide."));
+  connect(spread_, &QCheckBox::clicked, this, [this](bool on) {
+    if (sweep() && sweep()->outcome()) proxy()->display().set_spread(on ? sweep()->agreement() : nullptr);
+  });
   figures_ = form.note({});
   figures_->setMinimumHeight(2 * figures_->fontMetrics().lineSpacing());  // the matrix stays where it is
   matrix_ = new SweepMatrix;
@@ -170,6 +176,8 @@ void SweepPanel::show_sweep() {
   look_at(matrix_->current());
   engine::Display& display = proxy()->display();
   if (display.agreement()) display.set_agreement(outcome->agreement);
+  if (display.spread()) display.set_spread(sweep()->agreement());
+  spread_->setEnabled(sweep()->agreement() != nullptr);
   show_taken();
 }
 
@@ -196,6 +204,7 @@ void SweepPanel::refresh() {
   for (SweepAxisChoice* choice : {across_, down_}) choice->set_setting(proxy()->drive().setting);
   run_->setEnabled(proxy()->state().begun || sweep()->running());
   agreement_->setChecked(proxy()->display().agreement().has_value());
+  spread_->setChecked(proxy()->display().spread() != nullptr);
   show_taken();
 }
 

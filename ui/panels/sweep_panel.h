@@ -49,6 +49,7 @@ class SweepPanel : public Panel {
   SweepMatrix* matrix_;
   QLabel* figures_;
   QCheckBox* agreement_;
+  QCheckBox* spread_;
   QPointer<engine::CaseSweep> shown_;  // to which this is connected
 };
 

@@ -45,6 +45,12 @@ ColourScale scale_of_change(double within_mm) {
           QCoreApplication::translate("View", "added +%1 mm").arg(far)};
 }
 
+ColourScale scale_of_spread(double range_mm) {
+  return {kDiverging, text(QT_TRANSLATE_NOOP("View", "Surfaces of the runs")),
+          text(QT_TRANSLATE_NOOP("View", "together")),
+          QCoreApplication::translate("View", "%1 mm apart or more").arg(general_text(range_mm, 3))};
+}
+
 ColourScale scale_of_agreement(double runs) {
   const auto colour_at = [](double share) {
     const auto [red, green, blue] = document::heat_colour(share);

@@ -19,6 +19,7 @@ struct ColourScale {
 ColourScale scale_of_doubt();
 ColourScale scale_of_change(double within_mm);
 ColourScale scale_of_truth_error(double range_mm);
+ColourScale scale_of_spread(double range_mm);
 // Of a sweep of that many runs.
 ColourScale scale_of_agreement(double runs);
 

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/case_balance.h"
-#include "engine/truth_error.h"
+#include "engine/surface_maps.h"
 #include "solver/speed/motion_limit.h"
 #include "ui/views/force_arrows.h"
 #include "ui/views/overlay.h"
@@ -52,12 +52,12 @@ Qt::CursorShape cursor_for(engine::Tool tool) {
 }  // namespace
 
 bool PictureView::shows_truth_error() const {
-  return settings().truth_error && proxy().truth();
+  return settings().truth_error && proxy().truth() && !display().spread();
 }
 
 std::optional<ColourScale> PictureView::scale_of_distances() const {
-  if (shows_truth_error())
-    return scale_of_truth_error(engine::truth_error_range_mm(proxy().volume().geometry));
+  if (shows_truth_error()) return scale_of_truth_error(engine::distance_range_mm(proxy().volume().geometry));
+  if (display().spread()) return scale_of_spread(engine::distance_range_mm(proxy().volume().geometry));
   const auto& limit = proxy().state().limit;
   return limit && settings().change ? std::optional(scale_of_change(limit->within_mm())) : std::nullopt;
 }

@@ -65,7 +65,8 @@ class PictureView : public QWidget {
   [[nodiscard]] const engine::DisplaySettings& settings() const { return proxy_.display().settings(); }
   // Whether colours say how far the surface is from the truth.
   [[nodiscard]] bool shows_truth_error() const;
-  // Of colours that say how far the surface is from the truth, or from where it began; none: they do not.
+  // Of colours that say how far the surface is from the truth, or from where it began, or how far apart the
+  // runs of a sweep end there (in 3D alone); none: they do not.
   [[nodiscard]] std::optional<ColourScale> scale_of_distances() const;
   [[nodiscard]] DragView drag_view();
 

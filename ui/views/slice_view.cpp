@@ -136,7 +136,7 @@ renderer::SliceView SliceViewWidget::slice() const {
   view.nearest = s.nearest;
   view.surface = s.outline;
   view.contours = s.contours;
-  view.change = s.change || shows_truth_error();
+  view.change = (s.change && !display().spread()) || shows_truth_error();
   view.line_pixels = s.line_pixels * devicePixelRatioF();
   view.label_opacity = s.label_opacity;
   return view;
@@ -287,7 +287,8 @@ void SliceViewWidget::paint_legend(QPainter& painter) const {
   const auto& agreement = display().agreement();
   if (content_ == renderer::SliceContent::source && agreement)
     return paint_colour_scale(painter, size(), scale_of_agreement(agreement->window.width));
-  if (const auto scale = scale_of_distances(); scale && content_ == renderer::SliceContent::source)
+  const bool has_distances = content_ == renderer::SliceContent::source && !display().spread();
+  if (const auto scale = scale_of_distances(); scale && has_distances)
     return paint_colour_scale(painter, size(), *scale);
   if (content_ != renderer::SliceContent::speed || settings().speed_term != renderer::SpeedTerm::doubt)
     return;

@@ -1,6 +1,7 @@
 #include "ui/views/view_bar.h"
 
 #include <QAction>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QMenu>
 #include <algorithm>
@@ -12,8 +13,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kWidthForNumbers = 390;
-constexpr int kWidthForEvolution = 220;
+constexpr int kLeastWidth = 60;
 
 }  // namespace
 
@@ -23,7 +23,8 @@ ViewBar::ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAc
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(8, 1, 2, 1);
   layout->setSpacing(2);
-  layout->addWidget(new ElidedLabel(title), 1);
+  title_ = new ElidedLabel(title);
+  layout->addWidget(title_, 1);
   for (QAction* action : evolution) {
     auto* button = new QToolButton;
     button->setDefaultAction(action);
@@ -44,11 +45,14 @@ ViewBar::ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAc
   menu->addActions(tools);
   tool_->setMenu(menu);
   layout->addWidget(tool_);
-  connect(add_button("maximise", tr("Maximise or restore the view (double click)")), &QToolButton::clicked,
-          this, &ViewBar::maximise_wanted);
-  connect(add_button("duplicate", tr("Let the view float, or put it back")), &QToolButton::clicked, this,
-          &ViewBar::float_wanted);
-  connect(add_button("close", tr("Close the view")), &QToolButton::clicked, this, &ViewBar::close_wanted);
+  QToolButton* maximise = add_button("maximise", tr("Maximise or restore the view (double click)"));
+  connect(maximise, &QToolButton::clicked, this, &ViewBar::maximise_wanted);
+  QToolButton* floats = add_button("duplicate", tr("Let the view float, or put it back"));
+  connect(floats, &QToolButton::clicked, this, &ViewBar::float_wanted);
+  QToolButton* close = add_button("close", tr("Close the view"));
+  connect(close, &QToolButton::clicked, this, &ViewBar::close_wanted);
+  other_buttons_ = {maximise, floats, tool_};
+  lasting_ << close;
   connect(&proxy_, &engine::CaseProxy::state_changed, this, &ViewBar::follow_state);
   connect(&proxy_.display(), &engine::Display::changed, this, &ViewBar::follow_tool);
   follow_state();
@@ -92,6 +96,8 @@ NumberBox* ViewBar::add_number(double solver::Parameters::*parameter, const QStr
 
 void ViewBar::add_choice(QWidget* choice) {
   static_cast<QHBoxLayout*>(layout())->insertWidget(1, choice);
+  lasting_ << choice;
+  show_what_fits();
 }
 
 // The other parameters keep all their digits, of which the bar shows a few.
@@ -120,11 +126,40 @@ void ViewBar::resizeEvent(QResizeEvent* event) {
   show_what_fits();
 }
 
-// T and epsilon are the tent's.
+// Another font gives the parts other sizes.
+bool ViewBar::event(QEvent* event) {
+  if (event->type() == QEvent::LayoutRequest) show_what_fits();
+  return QWidget::event(event);
+}
+
+QSize ViewBar::minimumSizeHint() const {
+  return {std::max(kLeastWidth, room_for(lasting_)), sizeHint().height()};
+}
+
+// With the margins at both ends.
+int ViewBar::room_for(const QList<QWidget*>& parts) const {
+  const QMargins margins = layout()->contentsMargins();
+  int room = margins.left() + margins.right();
+  for (const QWidget* part : parts)
+    room += std::min(part->sizeHint().width(), part->maximumWidth()) + layout()->spacing();
+  return room;
+}
+
+// T and epsilon are the tent's. The title is cut before a button goes, but makes room neither for numbers nor
+// for the evolution's.
 void ViewBar::show_what_fits() {
-  const bool has_tent = is_driven_by(proxy_.drive(), "tent");
-  for (QWidget* number : numbers_) number->setVisible(has_tent && width() >= kWidthForNumbers);
-  for (QWidget* button : evolution_) button->setVisible(width() >= kWidthForEvolution);
+  QList<QWidget*> shown = lasting_;
+  bool fits = true;
+  const auto show = [&](const QList<QWidget*>& parts, int beside) {
+    fits = fits && room_for(shown + parts) + beside <= width();
+    if (fits) shown += parts;
+    for (QWidget* part : parts) part->setVisible(fits);
+  };
+  for (QWidget* button : other_buttons_) show({button}, 0);
+  const int title = title_->sizeHint().width();
+  show(evolution_, title);
+  fits = fits && is_driven_by(proxy_.drive(), "tent");
+  show(numbers_, title);
 }
 
 }  // namespace tidemark::ui

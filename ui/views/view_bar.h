@@ -20,7 +20,7 @@ class ViewBar : public QWidget {
   // What the view's picture is to show, behind its name.
   void add_choice(QWidget* choice);
 
-  [[nodiscard]] QSize minimumSizeHint() const override { return {60, sizeHint().height()}; }
+  [[nodiscard]] QSize minimumSizeHint() const override;
 
  signals:
   void maximise_wanted();
@@ -29,6 +29,7 @@ class ViewBar : public QWidget {
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  bool event(QEvent* event) override;
 
  private:
   QToolButton* add_button(const char* picture, const QString& text);
@@ -36,14 +37,19 @@ class ViewBar : public QWidget {
                         const QString& tip);
   void follow_state();
   void show_what_fits();
+  [[nodiscard]] int room_for(const QList<QWidget*>& parts) const;
   void follow_tool();
   void change(double solver::Parameters::*parameter, double value);
 
   engine::CaseProxy& proxy_;
+  QLabel* title_;
   QToolButton* tool_;
   QList<QAction*> tools_;
-  QList<QWidget*> numbers_;    // hidden first when the bar is narrow
-  QList<QWidget*> evolution_;  // and these next
+  // What goes first when the bar is narrow, what next, and so on.
+  QList<QWidget*> numbers_;
+  QList<QWidget*> evolution_;
+  QList<QWidget*> other_buttons_;  // the last one first
+  QList<QWidget*> lasting_;        // never
   NumberBox* target_;
   NumberBox* range_;
 };

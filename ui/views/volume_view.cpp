@@ -89,8 +89,9 @@ renderer::VolumeView VolumeViewWidget::view() const {
   view.camera = s.camera;
   view.surface = s.surface;
   view.surface_colour = s.surface_colour;
-  view.colouring = s.colouring;
-  view.change = s.change || shows_truth_error();
+  const bool shows_spread = display().spread() != nullptr;
+  view.colouring = shows_spread ? renderer::SurfaceColouring::plain : s.colouring;
+  view.change = s.change || shows_truth_error() || shows_spread;
   view.region = s.region;
   view.label_opacity = s.label_opacity;
   view.lighting.occlusion = s.occlusion;
@@ -260,7 +261,8 @@ void VolumeViewWidget::paint_overlay(QPainter& painter) {
   paint_orientation(painter, size(), camera.right(), camera.up(), is_oriented);
   paint_scale_bar(painter, size(), mm_per_pixel());
   paint_study(painter);
-  const bool is_coloured = settings().surface && settings().colouring == renderer::SurfaceColouring::plain;
+  const renderer::VolumeView shown = view();
+  const bool is_coloured = shown.surface && shown.colouring == renderer::SurfaceColouring::plain;
   if (const auto scale = scale_of_distances(); scale && is_coloured)
     paint_colour_scale(painter, size(), *scale);
   if (!settings().clip_on) return;

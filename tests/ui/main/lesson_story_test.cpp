@@ -6,6 +6,7 @@
 
 #include "document/lesson.h"
 #include "engine/lesson_course.h"
+#include "tests/support/ball_lesson.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/lessons/hand_in_box.h"
@@ -16,24 +17,6 @@ namespace tidemark::test {
 namespace {
 
 constexpr int kPatience = 120'000;  // ms
-
-constexpr const char* kLesson = R"({
-  "format": "tidemark lesson", "version": 1, "title": "Curvature",
-  "study": {"phantom": "sphere"},
-  "parameters": {"target": 800, "range": 300, "alpha": 0, "data_term": false},
-  "parts": [
-    {"title": "Shrinks", "text": "A ball under its curvature.",
-     "question": {"text": "What happens?", "choices": ["It shrinks", "It grows"], "right": 1},
-     "try": {"steps": 60},
-     "measure": [{"figure": "radius_mm", "low": 4.5, "high": 5.2}, {"figure": "steps", "low": 60, "high": 60}],
-     "explanation": "Curvature pulls inwards."},
-    {"title": "Goes on", "text": "Further.",
-     "try": {"goes_on": true, "steps": 40},
-     "measure": [{"figure": "steps", "low": 100, "high": 100}]},
-    {"title": "A wider band", "text": "From the start.",
-     "try": {"steps": 20, "parameters": {"band": 5}}}
-  ]
-})";
 
 QPushButton* button(QWidget& in, const QString& text) {
   for (auto* found : in.findChildren<QPushButton*>()) {
@@ -50,7 +33,7 @@ class LessonStoryTest : public QObject {
  private slots:
   void a_lesson_is_done_from_its_first_part_to_its_file() {
     Desktop desktop(story_executor(), {1366, 768});
-    const auto lesson = document::Lesson::parse(kLesson, "lesson");
+    const auto lesson = document::Lesson::parse(kBallLesson, "lesson");
     QVERIFY(lesson.has_value());
     desktop.window().teaching().begin(*lesson, {});
     const engine::LessonCourse& course = *desktop.window().teaching().course();
@@ -77,21 +60,21 @@ class LessonStoryTest : public QObject {
 
     // The next try goes on from there, also after the student has done something else.
     desktop.proxy().step(7);
-    QTest::mouseClick(button(*panel, "Next"), Qt::LeftButton);
+    for (int i = 0; i < 2; ++i) QTest::mouseClick(button(*panel, "Next"), Qt::LeftButton);
     QVERIFY(Desktop::wait_for([&] { return button(*panel, "Set up and play") != nullptr; }, kPatience));
     desktop.wait_until_idle();
     QTest::mouseClick(button(*panel, "Set up and play"), Qt::LeftButton);
-    QVERIFY(Desktop::wait_for([&] { return course.tried(1) && !course.attempting(); }, kPatience));
+    QVERIFY(Desktop::wait_for([&] { return course.tried(2) && !course.attempting(); }, kPatience));
     QCOMPARE(desktop.state().step, std::int64_t{100});
     QVERIFY(Desktop::wait_for([&] { return course.can_measure(); }, kPatience));
     QTest::mouseClick(button(*panel, "Measure"), Qt::LeftButton);
-    QVERIFY(Desktop::wait_for([&] { return course.done(1); }, kPatience));
+    QVERIFY(Desktop::wait_for([&] { return course.done(2); }, kPatience));
 
     // Another band begins the same case anew.
     QTest::mouseClick(button(*panel, "Next"), Qt::LeftButton);
     QVERIFY(Desktop::wait_for([&] { return button(*panel, "Set up and play") != nullptr; }, kPatience));
     QTest::mouseClick(button(*panel, "Set up and play"), Qt::LeftButton);
-    QVERIFY(Desktop::wait_for([&] { return course.done(2); }, kPatience));
+    QVERIFY(Desktop::wait_for([&] { return course.done(3); }, kPatience));
     QCOMPARE(desktop.state().step, std::int64_t{20});
     QCOMPARE(desktop.state().band, 5.0);
 

@@ -22,6 +22,7 @@ class SweepStoryTest : public QObject {
  private slots:
   void a_run_is_taken_and_undone();
   void what_the_runs_agree_on_shows_on_the_slices();
+  void what_the_runs_agree_on_shows_on_the_surface();
   void a_sweep_is_given_up();
   void each_case_has_its_own_sweep();
   void an_arrangement_from_before_the_panel_still_opens();
@@ -51,6 +52,25 @@ class SweepStoryTest : public QObject {
   static void choose_counts(ui::SweepPanel& panel, int across, int down) {
     type(named<ui::NumberBox>(panel, "Across: number of values"), QString::number(across));
     type(named<ui::NumberBox>(panel, "Down: number of values"), QString::number(down));
+  }
+  static QCheckBox* shown_check(QWidget& in, const QString& text) {
+    for (QCheckBox* check : in.findChildren<QCheckBox*>()) {
+      if (check->text() == text && check->isVisible()) return check;
+    }
+    qFatal("no %s", qPrintable(text));
+  }
+  static void click(QCheckBox& check) {
+    QTest::mouseClick(&check, Qt::LeftButton, {}, {8, check.height() / 2});
+  }
+  // Of the pixels of a view's picture, those that `is` says.
+  template <class Is>
+  static int count_of(ui::PictureView& view, Is is) {
+    const QImage picture = view.grab_picture();
+    int count = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) count += is(picture.pixelColor(x, y)) ? 1 : 0;
+    }
+    return count;
   }
   static QPushButton* run_button(ui::SweepPanel& panel) { return panel.findChild<QPushButton*>(); }
   static void run_all(Desktop& desktop, ui::SweepPanel& panel) {
@@ -133,30 +153,51 @@ void SweepStoryTest::what_the_runs_agree_on_shows_on_the_slices() {
   auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
   QVERIFY(axial);
   const auto coloured = [&] {
-    const QImage picture = axial->grab_picture();
-    int count = 0;
-    for (int y = 0; y < picture.height(); ++y) {
-      for (int x = 0; x < picture.width(); ++x) {
-        const QColor colour = picture.pixelColor(x, y);
-        count += std::max({colour.red(), colour.green(), colour.blue()}) -
-                             std::min({colour.red(), colour.green(), colour.blue()}) >
-                         40
-                     ? 1
-                     : 0;
-      }
-    }
-    return count;
+    return count_of(*axial, [](const QColor& colour) {
+      const auto [least, most] = std::minmax({colour.red(), colour.green(), colour.blue()});
+      return most - least > 40;
+    });
   };
   desktop.wait_until_idle();
   const int plain = coloured();
-  auto* agreement = panel.findChild<QCheckBox*>();
-  QVERIFY(agreement->isVisible());
-  QTest::mouseClick(agreement, Qt::LeftButton, {}, {8, agreement->height() / 2});
+  QCheckBox* agreement = shown_check(panel, "Agreement on the slices");
+  click(*agreement);
   QVERIFY(Desktop::wait_for([&] { return coloured() > plain + 1000; }));
   desktop.screenshot("sweep-4-agreement");
   QVERIFY(agreement->isChecked());
-  QTest::mouseClick(agreement, Qt::LeftButton, {}, {8, agreement->height() / 2});
+  click(*agreement);
   QVERIFY(Desktop::wait_for([&] { return coloured() < plain + 100; }));
+}
+
+void SweepStoryTest::what_the_runs_agree_on_shows_on_the_surface() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("bridge"));
+  desktop.begin(6.0);
+  ui::SweepPanel& panel = *shown_panel(desktop);
+  choose_counts(panel, 3, 2);
+  run_all(desktop, panel);
+  click_run(panel, {2, 1});
+  const std::int64_t steps = desktop.proxy().sweep().outcome()->sweep.at(2, 1).steps;
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().step == steps; }));
+  desktop.wait_until_idle();
+  auto* view = desktop.view<ui::VolumeViewWidget>();
+  QVERIFY(view);
+  // A plain surface is neither blue nor orange.
+  const auto agreed = [&] {
+    return count_of(*view, [](const QColor& colour) { return colour.blue() > colour.red() + 40; });
+  };
+  const auto apart = [&] {
+    return count_of(*view, [](const QColor& colour) { return colour.red() > 3 * colour.blue() + 30; });
+  };
+  const int blue = agreed();
+  const int orange = apart();
+  QCheckBox* agreement = shown_check(panel, "Agreement on the surface");
+  click(*agreement);
+  QVERIFY(Desktop::wait_for([&] { return agreed() > blue + 500 && apart() > orange + 500; }));
+  QVERIFY(agreement->isChecked());
+  desktop.screenshot("sweep-7-agreement-on-the-surface");
+  click(*agreement);
+  QVERIFY(Desktop::wait_for([&] { return agreed() < blue + 100 && apart() < orange + 100; }));
 }
 
 void SweepStoryTest::a_sweep_is_given_up() {

@@ -43,6 +43,7 @@ class TruthStoryTest : public QObject, ResultsDesktop {
   void a_mask_from_a_file_is_the_truth();
   void one_of_several_regions_is_chosen();
   void what_does_not_fit_is_said_and_changes_nothing();
+  void a_session_keeps_it_until_it_is_taken_back();
 
  private:
   void choose_file(const QString& file);
@@ -155,6 +156,48 @@ void TruthStoryTest::what_does_not_fit_is_said_and_changes_nothing() {
   qInfo("%s", qPrintable(problem()));
   QVERIFY(!desktop_->proxy().truth());
   QVERIFY(!desktop_->state().dice);
+}
+
+void TruthStoryTest::a_session_keeps_it_until_it_is_taken_back() {
+  const auto stop = [&] { return desktop_->menu_entry("File", "Stop comparing"); };
+  QVERIFY(!stop()->isEnabled());
+  const Mask truth = ball(grid(), kLeft, 6.0);
+  QCOMPARE(failure(imaging::write_mask_file(truth, folder_ / "expert.nii.gz")), QString());
+  choose_file(path("expert.nii.gz"));
+  QVERIFY(Desktop::wait_for([&] { return dice_now() > 0.0; }, kPatience));
+  const double expected = dice_now();
+  const auto save = [&](const char* name) {
+    window_->session_file = path(name);
+    desktop_->press(Qt::Key_S, Qt::ControlModifier);
+    const auto is_saved = [&] { return QFile::exists(path(name)) && !desktop_->state().modified; };
+    QVERIFY(Desktop::wait_for(is_saved, kPatience));
+  };
+  const auto open_again = [&](const char* name) {
+    desktop_->press(Qt::Key_W, Qt::ControlModifier);
+    QVERIFY(Desktop::wait_for([&] { return desktop_->window().cases().isEmpty(); }));
+    window_ = desktop_->open(path(name));
+    QVERIFY(window_);
+    desktop_->wait_until_idle();
+  };
+  save("compared.tidemark");
+  // The mask's file is not asked for again.
+  std::filesystem::remove(folder_ / "expert.nii.gz");
+  open_again("compared.tidemark");
+  QVERIFY(desktop_->proxy().truth());
+  QVERIFY(desktop_->proxy().truth()->voxels == truth.voxels);
+  QVERIFY(Desktop::wait_for([&] { return dice_now() == expected; }, kPatience));
+  desktop_->screenshot("truth-from-a-session");
+
+  QVERIFY(Desktop::wait_for([&] { return stop()->isEnabled(); }));
+  desktop_->choose("File", stop());
+  QVERIFY(Desktop::wait_for([&] { return !desktop_->proxy().truth() && !desktop_->state().dice; }));
+  desktop_->wait_until_idle();
+  QVERIFY(!desktop_->state().dice);
+  QVERIFY(!stop()->isEnabled());
+  QVERIFY(!figure("Dice"));
+  save("alone.tidemark");
+  open_again("alone.tidemark");
+  QVERIFY(!desktop_->proxy().truth());
 }
 
 }  // namespace tidemark::test

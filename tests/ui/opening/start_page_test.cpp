@@ -10,6 +10,7 @@
 #include <QFileInfo>
 #include <QImageReader>
 #include <QMimeData>
+#include <QScopeGuard>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QToolButton>
@@ -135,15 +136,39 @@ class StartPageTest : public QObject {
     QVERIFY(!other.isAccepted());
   }
 
+  void nothing_is_cut_off_when_the_window_is_small_data() {
+    QTest::addColumn<double>("type");
+    QTest::newRow("normal") << 1.0;
+    QTest::newRow("for a projector") << 1.5;
+  }
   void nothing_is_cut_off_when_the_window_is_small() {
+    QFETCH(double, type);
+    const QFont normal = QApplication::font();
+    QFont large = normal;
+    large.setPointSizeF(type * normal.pointSizeF());
+    QApplication::setFont(large);
+    const auto back_to_normal = qScopeGuard([&] { QApplication::setFont(normal); });
     ui::RecentStudies recent;
     ui::StartPage page(recent);
+    // Room for the longest word of a card beside its picture and its margins.
+    const auto has_room = [](const ui::CardButton& card) {
+      QFont bold = card.font();
+      bold.setWeight(QFont::DemiBold);
+      const int room = card.width() - (card.has_picture() ? 92 : 24);
+      const auto fits = [room](const QFont& font, const QString& text) {
+        const QFontMetrics metrics(font);
+        const QStringList words = text.split(' ');
+        return std::all_of(words.begin(), words.end(),
+                           [&](const QString& word) { return metrics.horizontalAdvance(word) <= room; });
+      };
+      return fits(bold, card.text()) && fits(card.font(), card.accessibleDescription());
+    };
     const auto cut_off = [&] {
       QStringList titles;
       for (const auto* card : page.findChildren<ui::CardButton*>()) {
         const QRect seen(card->mapTo(&page, QPoint(0, 0)), card->size());
         const bool is_whole = seen.left() >= 0 && seen.right() <= page.width() &&
-                              card->height() >= card->heightForWidth(card->width());
+                              card->height() >= card->heightForWidth(card->width()) && has_room(*card);
         if (!is_whole) titles.push_back(card->text());
       }
       return titles;

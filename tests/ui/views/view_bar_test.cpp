@@ -1,8 +1,14 @@
 // T and epsilon in the bar over a view.
 #include "ui/views/view_bar.h"
 
+#include <QAction>
+#include <QApplication>
+#include <QScopeGuard>
+
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
+#include "ui/look/icons.h"
+#include "ui/views/speed_map_choice.h"
 
 using namespace tidemark;
 
@@ -67,6 +73,54 @@ class ViewBarTest : public QObject {
     the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().parameters.target, 77.0);
     QCOMPARE(the_case_->state().parameters.range, 20.0);
+  }
+
+  void a_narrow_bar_leaves_parts_out_and_cuts_none_data() {
+    QTest::addColumn<double>("type");
+    QTest::newRow("normal") << 1.0;
+    QTest::newRow("for a projector") << 1.5;
+  }
+  void a_narrow_bar_leaves_parts_out_and_cuts_none() {
+    QFETCH(double, type);
+    QAction play(ui::icon(u"play"), "Play");
+    QAction tool(ui::icon(u"tool-window"), "Window");
+    ui::ViewBar bar(*the_case_->proxy, "Speed map", {&play}, {&tool});
+    auto* choice = new ui::SpeedMapChoice(*the_case_->proxy);
+    bar.add_choice(choice);
+    bar.resize(600, 30);
+    test::show(bar);
+    const auto parts = [&] {
+      QList<QWidget*> seen = choice->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
+      for (QWidget* part : bar.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+        if (part->isVisible() && part != choice && !qobject_cast<QLabel*>(part)) seen << part;
+      }
+      return seen;
+    };
+    const auto cut = [&] {
+      QStringList names;
+      for (const QWidget* part : parts()) {
+        const auto* number = qobject_cast<const QDoubleSpinBox*>(part);
+        if (part->width() < (number ? number->maximumWidth() : part->sizeHint().width()))
+          names << part->accessibleName();
+      }
+      return names.join(", ");
+    };
+    const qsizetype all = parts().size();
+    QVERIFY(box("Target T").isVisible());
+    const QFont normal = QApplication::font();
+    QFont font = normal;
+    font.setPointSizeF(type * font.pointSizeF());
+    QApplication::setFont(font);
+    const auto back_to_normal = qScopeGuard([&] { QApplication::setFont(normal); });
+    for (QWidget* part : bar.findChildren<QWidget*>()) part->setFont(font);
+    for (const int width : {600, 400, 300, 240, 200, 160, 1}) {
+      bar.resize(std::max(width, bar.minimumSizeHint().width()), 30);
+      QTRY_COMPARE(cut(), QString());
+      QVERIFY(choice->isVisible());
+    }
+    QVERIFY(parts().size() < all);
+    bar.resize(1000, 30);
+    QTRY_COMPARE(parts().size(), all);
   }
 
   void it_follows_what_is_set_elsewhere() {

@@ -1,0 +1,29 @@
+#include "ui/main/ask_for_labels.h"
+
+#include <QFileDialog>
+#include <QPointer>
+#include <utility>
+
+#include "ui/main/case_window.h"
+#include "ui/main/main_window.h"
+#include "ui/settings.h"
+#include "ui/widgets/file_patterns.h"
+
+namespace tidemark::ui {
+
+void ask_for_labels(MainWindow& window, CaseWindow& of, const QString& title,
+                    std::function<void(CaseWindow& of, const QString& file)> take) {
+  auto* dialog =
+      new QFileDialog(&window, title, settings::save_folder().get(),
+                      MainWindow::tr("Masks, label maps and segmentations (*.dcm %1);;All files (*)")
+                          .arg(QLatin1String(kVolumePatterns)));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  QObject::connect(dialog, &QFileDialog::fileSelected, &window,
+                   [of = QPointer(&of), take = std::move(take)](const QString& file) {
+                     if (of) take(*of, file);
+                   });
+  dialog->open();
+}
+
+}  // namespace tidemark::ui
