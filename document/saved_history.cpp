@@ -6,7 +6,7 @@
 namespace tidemark::document {
 namespace {
 
-constexpr std::int64_t kMostBytes = std::int64_t{256} << 20;  // of phi in a file, before it is deflated
+constexpr std::int64_t kMostPhiBytes = std::int64_t{256} << 20;  // of phi in a file, before it is deflated
 
 }  // namespace
 
@@ -63,7 +63,7 @@ SavedHistory for_file(const SavedHistory& history, const solver::Field& present)
     if (visit.state != visit.from && !kept[visit.from]) continue;
     events += state.recipe.events.size();
     if (events > SavedHistory::kMostEvents || whole.phi.size() == SavedHistory::kMostStates ||
-        whole.phi.bytes() > kMostBytes)
+        whole.phi.bytes() > kMostPhiBytes)
       break;
     state.phi = whole.phi.size();
     if (visit.state == visit.from) {

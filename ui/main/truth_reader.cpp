@@ -12,6 +12,7 @@
 #include "imaging/results/segments.h"
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
+#include "ui/main/status_bar.h"
 #include "ui/opening/loading_view.h"
 #include "ui/settings.h"
 #include "ui/widgets/file_patterns.h"
@@ -20,7 +21,6 @@ namespace tidemark::ui {
 namespace {
 
 const char* const kAboutTruth = "comparison with a mask";
-constexpr int kShownMs = 8000;  // in the status bar
 
 }  // namespace
 
