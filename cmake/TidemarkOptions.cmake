@@ -19,6 +19,10 @@ add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverl
 add_compile_options($<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
 # Clang warns of an accidental override by itself.
 add_compile_options($<$<AND:$<CXX_COMPILER_ID:GNU>,$<COMPILE_LANGUAGE:CXX>>:-Wsuggest-override>)
+if(CMAKE_UNITY_BUILD)
+  # A name that another file of the same joined one has is no shadow.
+  add_compile_options(-Wno-shadow)
+endif()
 if(TIDEMARK_WERROR)
   add_compile_options(-Werror)
 endif()

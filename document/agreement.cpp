@@ -6,7 +6,7 @@
 namespace tidemark::document {
 namespace {
 
-constexpr std::int64_t kBits = 8;  // a byte of InsideBits
+constexpr std::int64_t kBitsAtOnce = 8;  // a byte of InsideBits
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Agreement::Agreement(const std::vector<const InsideBits*>& surfaces, Index3 grid
         std::uint8_t* counts = counts_.data() + (at.z * size_.y + at.y) * size_.x + at.x;
         for (const std::uint8_t byte : inside->row(inside->first().y + j, inside->first().z + k)) {
           for (unsigned bits = byte; bits != 0; bits &= bits - 1) ++counts[std::countr_zero(bits)];
-          counts += kBits;
+          counts += kBitsAtOnce;
         }
       }
     }

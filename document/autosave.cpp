@@ -16,7 +16,7 @@ namespace tidemark::document {
 namespace {
 
 constexpr int kGenerations = 2;
-constexpr int kVersion = 1;
+constexpr int kSealVersion = 1;
 constexpr const char* kSeal = ".sha256";
 constexpr std::size_t kLargestSeal = 4096;
 
@@ -37,7 +37,7 @@ std::optional<std::uint64_t> valid_generation(const std::filesystem::path& sessi
   const auto json = JsonDocument::parse(text, session.string(), {.bytes = kLargestSeal, .depth = 2});
   if (!json) return std::nullopt;
   const JsonField root = root_of(*json, session.string());
-  const bool known = root.at("version").integer(0, 1 << 30) == kVersion;
+  const bool known = root.at("version").integer(0, 1 << 30) == kSealVersion;
   const std::int64_t generation = root.at("generation").integer(1, std::int64_t{1} << 62);
   const std::string sum = root.at("sha256").text(64);
   if (!root.good() || !known) return std::nullopt;
@@ -68,7 +68,7 @@ Status Autosave::write(const SessionContents& contents) {
   TIDEMARK_TRY(write_session(contents, file, InFile::no_history));
   auto sum = sha256_of_file(file);
   if (!sum) return pass_on(sum);
-  const Json seal{{"version", kVersion}, {"generation", next}, {"sha256", *sum}};
+  const Json seal{{"version", kSealVersion}, {"generation", next}, {"sha256", *sum}};
   TIDEMARK_TRY(write_file(seal_of(file), seal.dump()));
   generation_ = next;
   return {};

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/checked.h"
+#include "document/file_limits.h"
 #include "document/packed_bytes.h"
 #include "solver/speed/speed_registry.h"
 
@@ -15,9 +16,6 @@ namespace tidemark::document {
 namespace {
 
 constexpr std::size_t kMostTerms = 16;
-constexpr std::size_t kMostImages = 64;
-constexpr std::int64_t kMostVoxels = std::int64_t{1} << 31;
-constexpr std::size_t kLongestName = 256;
 constexpr std::size_t kEndless = std::numeric_limits<std::size_t>::max();
 
 Json to_json(const solver::SpeedTerm& term) {

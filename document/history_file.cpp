@@ -6,18 +6,17 @@
 #include <utility>
 
 #include "document/curve_json.h"
+#include "document/file_limits.h"
 #include "document/recipe_json.h"
 #include "document/session_contents.h"
 
 namespace tidemark::document {
 namespace {
 
-constexpr const char* kFormat = "tidemark history";
+constexpr const char* kHistoryFormat = "tidemark history";
 constexpr int kVersion = 1;
-constexpr std::int64_t kMostSteps = 1'000'000'000;
-constexpr std::size_t kLongestName = 256;
 constexpr std::size_t kMostPoints = 4'000'000;  // of all curves together
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+constexpr std::size_t kMostJsonBytes = std::size_t{64} << 20;
 constexpr std::int64_t kMostPages = std::int64_t{1} << 22;  // 8 GB; memory is taken for what is there
 
 // In the order of ChangeKind.
@@ -87,7 +86,7 @@ Json state_json(const SavedState& state, const Base& base, std::size_t phi) {
 
 std::string json_text(const SessionContents& contents) {
   const SavedHistory& history = contents.history;
-  Json json{{"format", kFormat}, {"version", kVersion}, {"present", history.present}};
+  Json json{{"format", kHistoryFormat}, {"version", kVersion}, {"present", history.present}};
   const Index3 shape = history.states[history.present].phi->layout.page_shape();
   json["page_shape"] = {shape.x, shape.y, shape.z};
   Json states = Json::array();
@@ -218,7 +217,7 @@ Status read_history(ZipReader& archive, SessionContents& contents, const std::st
   if (!archive.has(kHistoryJson)) return {};
   const std::string what = file + ": " + std::string(kHistoryJson);
   const std::size_t size = archive.size(kHistoryJson);
-  const JsonLimits limits{.bytes = kMostBytes};
+  const JsonLimits limits{.bytes = kMostJsonBytes};
   if (size > limits.bytes)
     return fail(ErrorKind::input, "{} has {} bytes, more than {} are not read", what, size, limits.bytes);
   auto text = archive.read(kHistoryJson, size);
@@ -226,7 +225,7 @@ Status read_history(ZipReader& archive, SessionContents& contents, const std::st
   auto json = JsonDocument::parse({reinterpret_cast<const char*>(text->data()), text->size()}, what, limits);
   if (!json) return pass_on(json);
   const JsonField root = root_of(*json, what);
-  root.at("format").must_be(kFormat);
+  root.at("format").must_be(kHistoryFormat);
   const JsonField version = root.at("version");
   if (version.integer(0, 1 << 30) != kVersion) version.wrong("this version cannot be read");
   if (root.good() && root.at("page_shape").index(1, 64) != contents.phi->layout.page_shape())

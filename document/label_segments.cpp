@@ -8,11 +8,11 @@
 namespace tidemark::document {
 namespace {
 
-constexpr std::size_t kLongestName = 64;  // bytes, as other systems have it (DICOM's LO)
+constexpr std::size_t kLongestText = 64;  // bytes, as other systems have it (DICOM's LO)
 
 // Cuts between characters of UTF-8.
 std::string shortened(std::string text) {
-  std::size_t length = std::min(text.size(), kLongestName);
+  std::size_t length = std::min(text.size(), kLongestText);
   while (length > 0 && length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) {
     --length;
   }
@@ -23,7 +23,7 @@ std::string shortened(std::string text) {
 bool makes_sense(const imaging::Code& code) {
   constexpr std::size_t kLongestValue = 16;  // of a DICOM SH
   return !code.value.empty() && code.value.size() <= kLongestValue && !code.scheme.empty() &&
-         code.scheme.size() <= kLongestValue && !code.meaning.empty() && code.meaning.size() <= kLongestName;
+         code.scheme.size() <= kLongestValue && !code.meaning.empty() && code.meaning.size() <= kLongestText;
 }
 
 // Files without a better meaning have "tissue"; the name may then have more.

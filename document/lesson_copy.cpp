@@ -12,8 +12,8 @@
 namespace tidemark::document {
 namespace {
 
-constexpr int kVersion = 1;
-constexpr const char* kFormat = "tidemark lesson answers";
+constexpr int kAnswersVersion = 1;
+constexpr const char* kAnswersFormat = "tidemark lesson answers";
 constexpr const char* kSuffix = ".lesson";
 constexpr std::size_t kLargestCopy = 3 * Lesson::kLargestFile;  // a lesson's text in quotes, and answers
 constexpr std::size_t kLongestAnswer = 4 * Lesson::kLongestLine;
@@ -62,8 +62,8 @@ Result<RescuedLesson> read_copy(const std::filesystem::path& file) {
   const auto json = JsonDocument::parse(*text, name, {.bytes = kLargestCopy, .depth = 6});
   if (!json) return pass_on(json);
   const JsonField root = root_of(*json, name);
-  root.at("format").must_be(kFormat);
-  static_cast<void>(root.at("version").integer(kVersion, kVersion));
+  root.at("format").must_be(kAnswersFormat);
+  static_cast<void>(root.at("version").integer(kAnswersVersion, kAnswersVersion));
   RescuedLesson found;
   found.copy = file;
   const std::string lesson_file = root.at("file").text();
@@ -104,8 +104,8 @@ Result<LessonCopy> LessonCopy::create(const std::filesystem::path& folder, std::
 }
 
 Status LessonCopy::write(const LessonProgress& progress) {
-  Json json{{"format", kFormat}, {"version", kVersion},   {"file", file_.string()},
-            {"lesson", lesson_}, {"part", progress.part}, {"parts", Json::array()}};
+  Json json{{"format", kAnswersFormat}, {"version", kAnswersVersion}, {"file", file_.string()},
+            {"lesson", lesson_},        {"part", progress.part},      {"parts", Json::array()}};
   for (std::size_t i = 0; i < progress.parts.size(); ++i)
     json["parts"].push_back(to_json(progress.parts[i], progress.tried[i] != 0));
   return write_file(copy_file(folder_, id_), json.dump(1, ' ', false, Json::error_handler_t::replace));

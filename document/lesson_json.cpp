@@ -10,9 +10,9 @@
 namespace tidemark::document {
 namespace {
 
-constexpr const char* kFormat = "tidemark lesson";
+constexpr const char* kLessonFormat = "tidemark lesson";
 constexpr std::size_t kMostMeasures = 10;
-constexpr std::size_t kMostSpheres = 1000;
+constexpr std::size_t kMostLessonSpheres = 1000;
 constexpr std::int64_t kMostMinutes = 1000;
 constexpr double kLargestFigure = 1e12;
 constexpr std::array<std::string_view, 4> kViews{"contours", "pages", "speed", "truth"};
@@ -117,7 +117,7 @@ Start read_lesson_start(const JsonField& field) {
   for (const char* list : {"seeds", "erasers"}) {
     if (!field.has(list)) continue;
     const JsonField spheres = field.at(list);
-    const std::size_t count = spheres.size(kMostSpheres);
+    const std::size_t count = spheres.size(kMostLessonSpheres);
     for (std::size_t i = 0; i < count && field.good(); ++i) spheres.at(i).only({"centre_mm", "radius_mm"});
   }
   if (!field.good()) return {};
@@ -241,7 +241,7 @@ Json to_json(const LessonPart& part, const Lesson& lesson) {
 
 Lesson read_lesson(const JsonField& field) {
   Lesson lesson;
-  field.at("format").must_be(kFormat);
+  field.at("format").must_be(kLessonFormat);
   const JsonField version = field.at("version");
   if (version.integer(0, 1 << 30) != Lesson::kVersion) version.wrong("this version cannot be read");
   if (!field.good()) return lesson;
@@ -268,7 +268,7 @@ Lesson read_lesson(const JsonField& field) {
 }
 
 Json lesson_json(const Lesson& lesson) {
-  Json json{{"format", kFormat}, {"version", Lesson::kVersion}, {"title", lesson.title}};
+  Json json{{"format", kLessonFormat}, {"version", Lesson::kVersion}, {"title", lesson.title}};
   if (!lesson.about.empty()) json["about"] = lesson.about;
   if (!lesson.author.empty()) json["author"] = lesson.author;
   if (lesson.minutes > 0) json["minutes"] = lesson.minutes;

@@ -9,6 +9,7 @@
 #include "core/checked.h"
 #include "document/drive_json.h"
 #include "document/field_bytes.h"
+#include "document/file_limits.h"
 #include "document/packed_bytes.h"
 #include "solver/coarse_grid.h"
 #include "solver/speed/motion_limit.h"
@@ -17,13 +18,11 @@ namespace tidemark::document {
 namespace {
 
 constexpr std::int64_t kLongestAxis = 1 << 20;
-constexpr std::int64_t kMostVoxels = std::int64_t{1} << 31;
-constexpr std::int64_t kMostSteps = 1'000'000'000;
 constexpr std::size_t kMostEvents = 1'000'000;
-constexpr std::size_t kMostSpheres = 100'000;
+constexpr std::size_t kMostStartSpheres = 100'000;
 constexpr double kFarthest_mm = 1e7;
 constexpr double kLargestLimit = 1e5;  // mm
-constexpr const char* kFormat = "tidemark recipe";
+constexpr const char* kRecipeFormat = "tidemark recipe";
 
 Json vector_json(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
@@ -51,7 +50,7 @@ solver::Sphere read_sphere(const JsonField& field) {
 
 std::vector<solver::Sphere> read_spheres(const JsonField& field) {
   std::vector<solver::Sphere> spheres;
-  const std::size_t count = field.size(kMostSpheres);
+  const std::size_t count = field.size(kMostStartSpheres);
   for (std::size_t i = 0; i < count && field.good(); ++i) spheres.push_back(read_sphere(field.at(i)));
   return spheres;
 }
@@ -304,7 +303,7 @@ int version_of(const Recipe& recipe) {
 }  // namespace
 
 Json to_json(const Recipe& recipe) {
-  Json json{{"format", kFormat}, {"version", version_of(recipe)}};
+  Json json{{"format", kRecipeFormat}, {"version", version_of(recipe)}};
   json["source"] = {{"size", index_json(recipe.source.size)},
                     {"spacing_mm", vector_json(recipe.source.spacing_mm)},
                     {"series_uid", recipe.source.series_uid},
@@ -326,7 +325,7 @@ Json to_json(const Recipe& recipe) {
 
 Recipe read_recipe(const JsonField& field) {
   Recipe recipe;
-  field.at("format").must_be(kFormat);
+  field.at("format").must_be(kRecipeFormat);
   const JsonField version = field.at("version");
   const std::int64_t number = version.integer(0, 1 << 30);
   if (number < Recipe::kVersionOfTents || number > Recipe::kVersion)

@@ -6,7 +6,7 @@
 namespace tidemark::document {
 namespace {
 
-constexpr std::int64_t kMostBytes = std::int64_t{256} << 20;  // of phi in a file, before it is deflated
+constexpr std::int64_t kMostPhiBytes = std::int64_t{256} << 20;  // of phi in a file, before it is deflated
 
 }  // namespace
 
@@ -62,7 +62,7 @@ HistoryForFile for_file(const SavedHistory& history) {
     if (!kept[visit.from] && visit.state != visit.from) continue;
     events += state.recipe.events.size();
     if (events > SavedHistory::kMostEvents || room.fields() == SavedHistory::kMostStates ||
-        room.bytes() > kMostBytes)
+        room.bytes() > kMostPhiBytes)
       break;
     if (state.phi->band != present.band) continue;
     if (!(state.phi->layout == present.layout))

@@ -9,6 +9,7 @@
 #include "document/curve_json.h"
 #include "document/drive_json.h"
 #include "document/field_bytes.h"
+#include "document/file_limits.h"
 #include "document/history_file.h"
 #include "document/recipe_json.h"
 #include "document/zip_archive.h"
@@ -21,10 +22,8 @@ constexpr std::string_view kTable = "phi.table";
 constexpr std::string_view kPages = "phi.pages";
 constexpr std::string_view kLabels = "labels";
 constexpr std::string_view kTruth = "truth";
-constexpr const char* kFormat = "tidemark session";
+constexpr const char* kSessionFormat = "tidemark session";
 constexpr std::size_t kLongestViewState = std::size_t{16} << 20;
-constexpr std::size_t kLongestName = 256;
-constexpr std::size_t kMostImages = 64;
 constexpr std::size_t kMostMaps = 1024;  // each was the user's choice once
 constexpr std::size_t kLongestDescription = std::size_t{1} << 20;
 // Some 170,000 strokes of a brush: 2 million values, in 16 MiB of places and 32 MiB of text.
@@ -114,8 +113,12 @@ std::filesystem::path read_place(const JsonField& field, const std::filesystem::
 }
 
 Json study_json(const StudyOrigin& origin, const std::filesystem::path& session) {
-  Json json{{"series_uid", origin.series_uid},  {"phantom", origin.phantom}, {"sha256", origin.checksum},
-            {"slices", to_json(origin.policy)}, {"name", origin.name},       {"date", origin.date}};
+  Json json{{"series_uid", origin.series_uid},
+            {"phantom", origin.phantom},
+            {"sha256", origin.checksum},
+            {"slices", document::to_json(origin.policy)},
+            {"name", origin.name},
+            {"date", origin.date}};
   add_place(json, origin.path, session);
   return json;
 }
@@ -136,8 +139,8 @@ StudyOrigin read_study(const JsonField& field, const std::filesystem::path& sess
 Json images_json(const SessionContents& contents, const std::filesystem::path& file) {
   Json list = Json::array();
   for (const auto& image : contents.images) {
-    Json one = to_json(*image);
-    one["slices"] = to_json(image->policy);
+    Json one = document::to_json(*image);
+    one["slices"] = document::to_json(image->policy);
     add_place(one, image->path, file);
     list.push_back(std::move(one));
   }
@@ -193,10 +196,10 @@ void read_maps(const JsonField& field, const std::filesystem::path& file, Recipe
 }
 
 Json session_json(const SessionContents& contents, const std::filesystem::path& file) {
-  Json json{{"format", kFormat}, {"version", kSessionVersion}};
+  Json json{{"format", kSessionFormat}, {"version", kSessionVersion}};
   json["study"] = study_json(contents.origin, file);
-  json["grid"] = to_json(contents.geometry);
-  json["recipe"] = to_json(contents.recipe);
+  json["grid"] = document::to_json(contents.geometry);
+  json["recipe"] = document::to_json(contents.recipe);
   const Index3 shape = contents.phi->layout.page_shape();
   json["phi"] = {{"band", contents.phi->band},
                  {"page_shape", {shape.x, shape.y, shape.z}},
@@ -279,7 +282,7 @@ Result<OpenedSession> open_session(const std::filesystem::path& file) {
   auto json = JsonDocument::parse({reinterpret_cast<const char*>(text->data()), text->size()}, name, limits);
   if (!json) return pass_on(json);
   const JsonField root = root_of(*json, name);
-  root.at("format").must_be(kFormat);
+  root.at("format").must_be(kSessionFormat);
   const JsonField version = root.at("version");
   if (version.integer(0, 1 << 30) != kSessionVersion) version.wrong("this version cannot be read");
   if (!root.good()) return pass_on(root.status());

@@ -7,7 +7,7 @@ namespace {
 
 constexpr auto kLapWindow = std::chrono::seconds(1);
 // Between two measurements, in terms of the last one's time.
-constexpr int kRest = 10;
+constexpr int kMeterRest = 10;
 constexpr auto kShortestRest = std::chrono::milliseconds(50);
 constexpr auto kLongestRest = std::chrono::seconds(1);
 constexpr double kSmoothing = 0.3;  // weight of the newest run in the mean time of a step
@@ -50,7 +50,7 @@ Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, boo
   surface_ = surface_meter_.measure(*phi_);
   if (overlap_) dice_ = overlap_->dice(*phi_);
   const auto ended = Clock::now();
-  due_at_ = ended + std::clamp<Clock::duration>(kRest * (ended - began), kShortestRest, kLongestRest);
+  due_at_ = ended + std::clamp<Clock::duration>(kMeterRest * (ended - began), kShortestRest, kLongestRest);
   // A case that was read from a file has not moved since its last point.
   document::LevelSet& level_set = document.level_set();
   const document::Curve::Points& before = *level_set.curve().points();

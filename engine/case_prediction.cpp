@@ -5,14 +5,14 @@
 namespace tidemark::engine {
 namespace {
 
-constexpr int kRest = 9;  // times as long as a prediction takes: while something is dragged
+constexpr int kPredictionRest = 9;  // times as long as a prediction takes: while something is dragged
 
 }  // namespace
 
 CasePrediction::CasePrediction(QObject* parent)
     : QObject(parent),
       question_(
-          this, &CasePrediction::compute, [this] { emit answered(); }, kRest) {}
+          this, &CasePrediction::compute, [this] { emit answered(); }, kPredictionRest) {}
 
 // Steps alone change phi and step; the first point of a long curve may be left out of it.
 bool CasePrediction::still_holds(const Base& now) const {

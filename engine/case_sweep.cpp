@@ -12,7 +12,7 @@ constexpr int kPictureSide = 128;  // pixels
 // Of what a solver may take: the case's own executor has the other half.
 constexpr std::int64_t kBudgetShare = 2;
 
-[[maybe_unused]] constexpr const char* kSteps[] = {
+[[maybe_unused]] constexpr const char* kSweepSteps[] = {
     QT_TRANSLATE_NOOP("tidemark::SweepStep", "runs"),
 };
 

@@ -13,7 +13,7 @@ namespace tidemark::engine {
 namespace {
 
 constexpr std::int64_t kPictures = 60;
-constexpr double kSeconds = 0.05;  // of each picture
+constexpr double kPictureSeconds = 0.05;  // of each picture
 
 // Pictures of a level set while it runs, by the processor.
 class Camera {
@@ -48,7 +48,7 @@ Status write_film(const document::Recipe& recipe, const std::shared_ptr<const Vo
   if (recipe.steps == 0) {
     return fail(ErrorKind::usage, "the surface has not moved yet: there is nothing to film");
   }
-  auto film = imaging::GifFile::create(size.width, size.height, kSeconds, file);
+  auto film = imaging::GifFile::create(size.width, size.height, kPictureSeconds, file);
   if (!film) return pass_on(film);
   const solver::PageLayout layout(volume->geometry.size, solver::kDefaultPageShape);
   auto renderer = renderer::make_renderer(renderer::RendererKind::host, nullptr, volume, layout);

@@ -7,7 +7,7 @@
 namespace tidemark::engine {
 namespace {
 
-constexpr double kSeconds = 3.0;          // that a try is watched for, where it is quicker than that
+constexpr double kWatchedSeconds = 3.0;   // that a try is watched for, where it is quicker than that
 constexpr std::int64_t kLongSteps = 600;  // a surface that is to rest mostly does so within these
 
 }  // namespace
@@ -202,7 +202,7 @@ void LessonCourse::play() {
     proxy.begin(own ? *own : document::suggested_start(study.volume->geometry, known.seed, known.threshold));
   }
   const std::int64_t seen = wanted.until_rest ? std::min(wanted.steps, kLongSteps) : wanted.steps;
-  proxy.set_pace(static_cast<double>(seen) / kSeconds);
+  proxy.set_pace(static_cast<double>(seen) / kWatchedSeconds);
   proxy.play_for(wanted.steps, wanted.until_rest,
                  [self = QPointer(this), mine = attempt_.get()](bool reached) {
                    if (self && self->attempt_.get() == mine) self->follow_end(reached);

@@ -7,7 +7,7 @@ namespace tidemark::engine {
 namespace {
 
 // Steps as imaging/pacs names them, for translators.
-[[maybe_unused]] constexpr const char* kSteps[] = {
+[[maybe_unused]] constexpr const char* kPacsSteps[] = {
     QT_TRANSLATE_NOOP("tidemark::PacsStep", "calling the server"),
     QT_TRANSLATE_NOOP("tidemark::PacsStep", "asking the server"),
     QT_TRANSLATE_NOOP("tidemark::PacsStep", "receiving objects"),

@@ -5,7 +5,7 @@
 namespace tidemark::engine {
 namespace {
 
-[[maybe_unused]] constexpr const char* kSteps[] = {
+[[maybe_unused]] constexpr const char* kRegistrationSteps[] = {
     QT_TRANSLATE_NOOP("tidemark::RegistrationStep", "registering"),
 };
 

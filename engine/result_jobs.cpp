@@ -8,7 +8,7 @@ namespace tidemark::engine {
 namespace {
 
 // Steps as the folders below name them, for translators.
-[[maybe_unused]] constexpr const char* kSteps[] = {
+[[maybe_unused]] constexpr const char* kResultSteps[] = {
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing segments"),
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing contours"),
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing the level set"),

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Steps as the folders below name them, for translators.
-[[maybe_unused]] constexpr const char* kSteps[] = {
+[[maybe_unused]] constexpr const char* kLoadingSteps[] = {
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "unpacking the archive"),
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "reading headers"),
     QT_TRANSLATE_NOOP("tidemark::LoadingStep", "decoding slices"),

@@ -8,8 +8,8 @@
 namespace tidemark::engine {
 namespace {
 
-constexpr int kRest = 9;       // times as long as a comparison takes
-constexpr double kBand = 2.0;  // nothing but where the surface lies is taken from it
+constexpr int kComparisonRest = 9;  // times as long as a comparison takes
+constexpr double kBand = 2.0;       // nothing but where the surface lies is taken from it
 
 }  // namespace
 
@@ -36,7 +36,7 @@ class TruthSurface {
 TruthComparison::TruthComparison(QObject* parent)
     : QObject(parent),
       question_(
-          this, &TruthComparison::compare, [this] { emit answered(); }, kRest) {}
+          this, &TruthComparison::compare, [this] { emit answered(); }, kComparisonRest) {}
 
 void TruthComparison::ask(const std::shared_ptr<const Mask>& truth,
                           std::shared_ptr<const solver::Field> phi) {

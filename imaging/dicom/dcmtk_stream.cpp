@@ -62,9 +62,9 @@ class Producer : public DcmProducer {
   std::array<std::uint8_t, 8192> window_;
 };
 
-class Stream : public DcmInputStream {
+class SourceStream : public DcmInputStream {
  public:
-  Stream(ByteSource& source, std::int64_t at)
+  SourceStream(ByteSource& source, std::int64_t at)
       : DcmInputStream(&producer_), source_(source), producer_(source, at), begin_(at) {}
   // For a value that is read later. An inflated stream cannot be read again from its middle.
   [[nodiscard]] DcmInputStreamFactory* newFactory() const override;
@@ -78,7 +78,7 @@ class Stream : public DcmInputStream {
 class StreamFactory : public DcmInputStreamFactory {
  public:
   StreamFactory(ByteSource& source, std::int64_t at) : source_(source), at_(at) {}
-  [[nodiscard]] DcmInputStream* create() const override { return new Stream(source_, at_); }
+  [[nodiscard]] DcmInputStream* create() const override { return new SourceStream(source_, at_); }
   [[nodiscard]] DcmInputStreamFactory* clone() const override { return new StreamFactory(*this); }
   // There is no name for others; this one means that nothing has to be removed at the end.
   [[nodiscard]] DcmInputStreamFactoryType ident() const override { return DFT_DcmInputFileStreamFactory; }
@@ -88,7 +88,7 @@ class StreamFactory : public DcmInputStreamFactory {
   std::int64_t at_;
 };
 
-DcmInputStreamFactory* Stream::newFactory() const {
+DcmInputStreamFactory* SourceStream::newFactory() const {
   return currentProducer() == &producer_ ? new StreamFactory(source_, begin_ + tell()) : nullptr;
 }
 
@@ -96,7 +96,7 @@ DcmInputStreamFactory* Stream::newFactory() const {
 
 std::string parse_dicom(ByteSource& bytes, const TransferSyntax& syntax, DcmFileFormat& loaded,
                         std::optional<DicomTag> stop_at) {
-  Stream stream(bytes, 0);
+  SourceStream stream(bytes, 0);
   loaded.transferInit();
   const OFCondition read = loaded.readUntilTag(
       stream, DcmXfer(std::string(syntax.uid).c_str()).getXfer(), EGL_noChange, DCM_MaxReadLength,

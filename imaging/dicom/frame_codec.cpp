@@ -12,7 +12,7 @@
 namespace tidemark::imaging {
 namespace {
 
-using Fragments = std::vector<std::vector<std::uint8_t>>;
+using FragmentBytes = std::vector<std::vector<std::uint8_t>>;
 
 // The Image Pixel module as a codec asks for it: the frame is an image of its own.
 void put_format(const SliceHeader& header, DcmDataset& dataset) {
@@ -30,7 +30,7 @@ void put_format(const SliceHeader& header, DcmDataset& dataset) {
   put(DCM_PixelRepresentation, header.is_signed ? 1 : 0);
 }
 
-OFCondition put_fragments(const Fragments& fragments, E_TransferSyntax syntax, DcmDataset& dataset) {
+OFCondition put_fragments(const FragmentBytes& fragments, E_TransferSyntax syntax, DcmDataset& dataset) {
   auto sequence = std::make_unique<DcmPixelSequence>(DCM_PixelSequenceTag);
   OFCondition put = sequence->insert(new DcmPixelItem(DCM_PixelItemTag));  // the offset table
   for (const auto& fragment : fragments) {
@@ -62,7 +62,7 @@ OFCondition take_words(DcmElement& element, int bits, std::vector<std::uint32_t>
 }
 
 // The decoded frame, which the dataset keeps.
-tl::expected<DcmElement*, std::string> decode_within(DcmDataset& dataset, const Fragments& fragments,
+tl::expected<DcmElement*, std::string> decode_within(DcmDataset& dataset, const FragmentBytes& fragments,
                                                      const TransferSyntax& syntax,
                                                      const SliceHeader& header) {
   const DcmXfer coded(std::string(syntax.uid).c_str());
@@ -89,7 +89,7 @@ std::string unreadable(const OFCondition& taken) {
 
 }  // namespace
 
-tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(const Fragments& fragments,
+tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(const FragmentBytes& fragments,
                                                                        const TransferSyntax& syntax,
                                                                        const SliceHeader& header) {
   DcmDataset dataset;
@@ -102,8 +102,8 @@ tl::expected<std::vector<std::uint32_t>, std::string> decode_fragments(const Fra
   return words;
 }
 
-std::string decode_words(const Fragments& fragments, const TransferSyntax& syntax, const SliceHeader& header,
-                         std::span<std::uint16_t> target) {
+std::string decode_words(const FragmentBytes& fragments, const TransferSyntax& syntax,
+                         const SliceHeader& header, std::span<std::uint16_t> target) {
   DcmDataset dataset;
   const auto element = decode_within(dataset, fragments, syntax, header);
   if (!element) return element.error();

@@ -58,10 +58,10 @@ struct DestroyStream {
 
 using Codec = std::unique_ptr<opj_codec_t, DestroyCodec>;
 using Image = std::unique_ptr<opj_image_t, DestroyImage>;
-using Stream = std::unique_ptr<opj_stream_t, DestroyStream>;
+using J2kStream = std::unique_ptr<opj_stream_t, DestroyStream>;
 
-Stream open_stream(Input& input) {
-  Stream stream(opj_stream_default_create(OPJ_TRUE));
+J2kStream open_stream(Input& input) {
+  J2kStream stream(opj_stream_default_create(OPJ_TRUE));
   if (!stream) return stream;
   opj_stream_set_read_function(stream.get(), read_bytes);
   opj_stream_set_skip_function(stream.get(), skip_bytes);
@@ -111,7 +111,7 @@ Status check_header(const opj_image_t& image, std::int64_t columns, std::int64_t
 Result<J2kImage> decode_j2k(std::span<const std::uint8_t> bytes, std::int64_t columns, std::int64_t rows) {
   TIDEMARK_TRY(require_part_one(bytes));
   Input input{bytes};
-  const Stream stream = open_stream(input);
+  const J2kStream stream = open_stream(input);
   const Codec codec = make_codec(bytes);
   if (!stream || !codec) return fail(ErrorKind::internal, "the JPEG 2000 decoder does not start");
 

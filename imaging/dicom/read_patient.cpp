@@ -15,7 +15,7 @@
 namespace tidemark::imaging {
 namespace {
 
-std::string text(DcmItem& dataset, const DcmTagKey& key, const std::string& delimiters = {}) {
+std::string patient_text(DcmItem& dataset, const DcmTagKey& key, const std::string& delimiters = {}) {
   return tidied(
       in_utf8(element_text(dataset, key), element_text(dataset, DCM_SpecificCharacterSet), delimiters));
 }
@@ -46,7 +46,8 @@ std::string readable_name(const std::string& representation, const char* behind_
 }
 
 std::string name(DcmItem& dataset) {
-  const auto [alphabetic, ideographic, phonetic] = parts_of<3>(text(dataset, DCM_PatientName, "^="), '=');
+  const auto [alphabetic, ideographic, phonetic] =
+      parts_of<3>(patient_text(dataset, DCM_PatientName, "^="), '=');
   const std::string latin = readable_name(alphabetic, ", ");
   const std::string original = readable_name(ideographic, " ");
   if (original.empty()) return latin.empty() ? readable_name(phonetic, " ") : latin;
@@ -54,25 +55,25 @@ std::string name(DcmItem& dataset) {
 }
 
 std::string sex(DcmItem& dataset) {
-  const std::string value = text(dataset, DCM_PatientSex);
+  const std::string value = patient_text(dataset, DCM_PatientSex);
   return value == "F" || value == "M" || value == "O" ? value : std::string();
 }
 
 // The file's own ("045Y"; some write "000Y" for unknown), else from the date of birth.
 std::string age(DcmItem& dataset, const std::string& study_date) {
-  const std::string own = text(dataset, DCM_PatientAge);
+  const std::string own = patient_text(dataset, DCM_PatientAge);
   const std::size_t zeros = std::min(own.find_first_not_of('0'), own.size());
   const std::size_t digits = std::min(own.find_first_not_of("0123456789"), own.size());
   const bool is_age = digits > zeros && digits <= 3 && digits + 1 == own.size() &&
                       std::string_view("DWMY").find(own.back()) != std::string_view::npos;
   if (is_age) return own.substr(zeros);
-  return age_between(iso_date(text(dataset, DCM_PatientBirthDate)), study_date);
+  return age_between(iso_date(patient_text(dataset, DCM_PatientBirthDate)), study_date);
 }
 
 }  // namespace
 
 Patient read_patient(DcmItem& dataset, const std::string& study_date) {
-  return {name(dataset), text(dataset, DCM_PatientID), sex(dataset), age(dataset, study_date)};
+  return {name(dataset), patient_text(dataset, DCM_PatientID), sex(dataset), age(dataset, study_date)};
 }
 
 }  // namespace tidemark::imaging

@@ -16,7 +16,7 @@ namespace tidemark::imaging {
 namespace {
 
 // Codes and numbers are ASCII; other characters would spoil a message.
-std::string text(DcmItem& item, const DcmTagKey& key) {
+std::string quantity_text(DcmItem& item, const DcmTagKey& key) {
   constexpr std::size_t kLongest = 256;
   std::string result = element_text(item, key).substr(0, kLongest);
   result.erase(result.find_last_not_of(' ') + 1);
@@ -26,7 +26,7 @@ std::string text(DcmItem& item, const DcmTagKey& key) {
 }
 
 std::optional<double> number(DcmItem& item, const DcmTagKey& key) {
-  const auto values = parse_decimals(text(item, key));
+  const auto values = parse_decimals(quantity_text(item, key));
   if (!values || values->size() != 1) return std::nullopt;
   return values->front();
 }
@@ -61,7 +61,7 @@ std::optional<double> seconds_of_date(const std::string& date) {
   return static_cast<double>(std::chrono::sys_days(day).time_since_epoch().count()) * 86400.0;
 }
 
-std::optional<double> moment(const std::string& date, const std::string& time) {
+std::optional<double> seconds_of(const std::string& date, const std::string& time) {
   const auto day = seconds_of_date(date);
   const auto of_day = seconds_of_day(time);
   if (!day || !of_day) return std::nullopt;
@@ -76,26 +76,27 @@ std::optional<double> moment_of(const std::string& date_time, const std::string&
   }
   const std::string local = date_time.substr(0, zone);
   if (local.size() < 12) return std::nullopt;
-  return moment(local.substr(0, 8), local.substr(8));
+  return seconds_of(local.substr(0, 8), local.substr(8));
 }
 
 void read_pet(DcmItem& dataset, QuantityHeader& quantity) {
-  quantity.units = text(dataset, DCM_Units);
-  quantity.suv_type = text(dataset, DCM_SUVType);
-  quantity.corrections = text(dataset, DCM_CorrectedImage);
-  quantity.decay_correction = text(dataset, DCM_DecayCorrection);
+  quantity.units = quantity_text(dataset, DCM_Units);
+  quantity.suv_type = quantity_text(dataset, DCM_SUVType);
+  quantity.corrections = quantity_text(dataset, DCM_CorrectedImage);
+  quantity.decay_correction = quantity_text(dataset, DCM_DecayCorrection);
   quantity.weight_kg = number(dataset, DCM_PatientWeight);
-  const std::string series_date = text(dataset, DCM_SeriesDate);
-  quantity.series_began = moment(series_date, text(dataset, DCM_SeriesTime));
-  const std::string date = text(dataset, DCM_AcquisitionDate);
-  quantity.acquired = moment(date.empty() ? series_date : date, text(dataset, DCM_AcquisitionTime));
+  const std::string series_date = quantity_text(dataset, DCM_SeriesDate);
+  quantity.series_began = seconds_of(series_date, quantity_text(dataset, DCM_SeriesTime));
+  const std::string date = quantity_text(dataset, DCM_AcquisitionDate);
+  quantity.acquired =
+      seconds_of(date.empty() ? series_date : date, quantity_text(dataset, DCM_AcquisitionTime));
   DcmItem* tracer = nullptr;
   if (dataset.findAndGetSequenceItem(DCM_RadiopharmaceuticalInformationSequence, tracer).bad()) return;
   quantity.dose_bq = number(*tracer, DCM_RadionuclideTotalDose);
   quantity.half_life_s = number(*tracer, DCM_RadionuclideHalfLife);
-  quantity.injected = moment_of(text(*tracer, DCM_RadiopharmaceuticalStartDateTime),
-                                text(dataset, DCM_TimezoneOffsetFromUTC));
-  quantity.injected_day = seconds_of_day(text(*tracer, DCM_RadiopharmaceuticalStartTime));
+  quantity.injected = moment_of(quantity_text(*tracer, DCM_RadiopharmaceuticalStartDateTime),
+                                quantity_text(dataset, DCM_TimezoneOffsetFromUTC));
+  quantity.injected_day = seconds_of_day(quantity_text(*tracer, DCM_RadiopharmaceuticalStartTime));
 }
 
 // The stored values for which a mapping is defined, whatever they are written as.
@@ -123,8 +124,8 @@ std::string take_mapping(DcmItem& item, SliceHeader& header) {
   }
   DcmItem* code = nullptr;
   if (item.findAndGetSequenceItem(DCM_MeasurementUnitsCodeSequence, code).good() &&
-      text(*code, DCM_CodingSchemeDesignator) == "UCUM") {
-    mapping.unit = text(*code, DCM_CodeValue);
+      quantity_text(*code, DCM_CodingSchemeDesignator) == "UCUM") {
+    mapping.unit = quantity_text(*code, DCM_CodeValue);
   }
   if (mapping.unit.empty() || mapping.unit == "1" || mapping.unit.starts_with('{')) {
     return "it states no unit";
@@ -165,7 +166,7 @@ void read_quantity(DcmItem& dataset, SliceHeader& header) {
   read_mapping(dataset, header);
   constexpr Uint16 kPhilips = 0x2005;
   quantity.has_philips_scale =
-      text(dataset, DcmTagKey(kPhilips, 0x0010)).starts_with("Philips MR Imaging DD") &&
+      quantity_text(dataset, DcmTagKey(kPhilips, 0x0010)).starts_with("Philips MR Imaging DD") &&
       dataset.tagExists(DcmTagKey(kPhilips, 0x100e));
 }
 

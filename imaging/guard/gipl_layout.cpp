@@ -7,7 +7,7 @@
 namespace tidemark::imaging::files {
 namespace {
 
-constexpr std::size_t kHeaderSize = 256;
+constexpr std::size_t kGiplHeaderSize = 256;
 
 std::uint32_t big_endian(const std::string& bytes, std::size_t offset, std::size_t count) {
   std::uint32_t value = 0;
@@ -42,9 +42,9 @@ std::optional<Scalar> scalar_of(std::uint32_t type) {
 
 Result<PixelLayout> locate_gipl(const std::filesystem::path& file) {
   const std::string name = file.string();
-  const auto header = read_start(file, kHeaderSize);
+  const auto header = read_start(file, kGiplHeaderSize);
   if (!header) return pass_on(header);
-  if (header->size() < kHeaderSize) {
+  if (header->size() < kGiplHeaderSize) {
     return fail(ErrorKind::input, "{}: not a GIPL file: {} bytes are too few for its header", name,
                 header->size());
   }
@@ -69,7 +69,7 @@ Result<PixelLayout> locate_gipl(const std::filesystem::path& file) {
                      .oriented = false};
   layout.swapped = std::endian::native == std::endian::little;
   layout.coding = is_gzip(file) ? Coding::deflate : Coding::raw;
-  (layout.coding == Coding::deflate ? layout.prefix : layout.offset) = kHeaderSize;
+  (layout.coding == Coding::deflate ? layout.prefix : layout.offset) = kGiplHeaderSize;
   return layout;
 }
 

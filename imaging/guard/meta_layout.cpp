@@ -9,7 +9,7 @@
 namespace tidemark::imaging::files {
 namespace {
 
-std::optional<Scalar> scalar_of(const std::string& type) {
+std::optional<Scalar> meta_scalar(const std::string& type) {
   static const std::map<std::string, Scalar> kScalars = {
       {"MET_CHAR", Scalar::int8},         {"MET_UCHAR", Scalar::uint8},   {"MET_SHORT", Scalar::int16},
       {"MET_USHORT", Scalar::uint16},     {"MET_INT", Scalar::int32},     {"MET_UINT", Scalar::uint32},
@@ -26,7 +26,7 @@ bool is_true(const TextHeader& header, const char* name, bool otherwise) {
   return value->front() == 'T' || value->front() == 't' || value->front() == '1';
 }
 
-Status count_bytes(const TextHeader& header, const std::string& name, PixelLayout& layout) {
+Status count_meta_bytes(const TextHeader& header, const std::string& name, PixelLayout& layout) {
   const auto text = header.find("DimSize");
   const auto sizes = whole_numbers(text.value_or(""));
   const auto dimensions = whole_numbers(header.find("NDims").value_or(""));
@@ -48,7 +48,7 @@ Status count_bytes(const TextHeader& header, const std::string& name, PixelLayou
                 *header.find("ElementNumberOfChannels"));
   }
   const std::string type = header.find("ElementType").value_or("missing");
-  const auto scalar = scalar_of(type);
+  const auto scalar = meta_scalar(type);
   if (!scalar) return fail(ErrorKind::input, "{}: ElementType {} is not a scalar type", name, type);
   layout.scalar = *scalar;
   const auto total = checked_product(layout.voxels, bytes_of(*scalar));
@@ -96,7 +96,7 @@ Result<PixelLayout> locate_meta(const std::filesystem::path& file) {
   const auto header = read_meta_header(file);
   if (!header) return pass_on(header);
   PixelLayout layout{.file = file, .offset = header->end};
-  TIDEMARK_TRY(count_bytes(*header, name, layout));
+  TIDEMARK_TRY(count_meta_bytes(*header, name, layout));
   TIDEMARK_TRY(require_finite_fields(*header, file,
                                      {"TransformMatrix", "Rotation", "Orientation", "Offset", "Position",
                                       "Origin", "ElementSpacing", "ElementSize"}));

@@ -13,7 +13,7 @@
 namespace tidemark::imaging::files {
 namespace {
 
-constexpr std::size_t kHeaderSize = 348;
+constexpr std::size_t kNiftiHeaderSize = 348;
 constexpr std::int32_t kNifti2HeaderSize = 540;
 constexpr std::int64_t kFirstVoxel = 352;
 
@@ -22,7 +22,7 @@ class Fields {
  public:
   explicit Fields(std::string_view bytes) : bytes_(bytes) {
     const auto size = read<std::int32_t>(0);
-    swapped_ = size != static_cast<std::int32_t>(kHeaderSize) && size != kNifti2HeaderSize;
+    swapped_ = size != static_cast<std::int32_t>(kNiftiHeaderSize) && size != kNifti2HeaderSize;
   }
 
   template <class T>
@@ -190,9 +190,9 @@ void compare_orientations(const Fields& header, PixelLayout& layout) {
 
 Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   const std::string name = file.string();
-  auto start = read_start(file, kHeaderSize);
+  auto start = read_start(file, kNiftiHeaderSize);
   if (!start) return pass_on(start);
-  if (start->size() < kHeaderSize) {
+  if (start->size() < kNiftiHeaderSize) {
     return fail(ErrorKind::input, "{}: not a NIfTI file: {} bytes are too few for its header", name,
                 start->size());
   }
@@ -200,7 +200,7 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   if (header.size_field() == kNifti2HeaderSize) {
     return fail(ErrorKind::input, "{}: sizeof_hdr is 540: NIfTI-2 is not supported", name);
   }
-  if (header.size_field() != static_cast<std::int32_t>(kHeaderSize) && header.magic() == "n+1") {
+  if (header.size_field() != static_cast<std::int32_t>(kNiftiHeaderSize) && header.magic() == "n+1") {
     return fail(ErrorKind::input, "{}: sizeof_hdr is {}, not 348", name, header.size_field());
   }
   if (header.magic() != "n+1") {

@@ -9,7 +9,7 @@ namespace tidemark::imaging::files {
 namespace {
 
 // By NRRD's type names; nothing for "block" and unknown ones.
-std::optional<Scalar> scalar_of(const std::string& type) {
+std::optional<Scalar> nrrd_scalar(const std::string& type) {
   static const std::map<std::string, Scalar> kScalars = {{"signed char", Scalar::int8},
                                                          {"int8", Scalar::int8},
                                                          {"int8_t", Scalar::int8},
@@ -56,7 +56,7 @@ std::optional<Scalar> scalar_of(const std::string& type) {
 }
 
 // Fills in sizes, type and bytes.
-Status count_bytes(const TextHeader& header, const std::string& name, PixelLayout& layout) {
+Status count_nrrd_bytes(const TextHeader& header, const std::string& name, PixelLayout& layout) {
   const auto sizes = whole_numbers(header.find("sizes").value_or(""));
   if (!sizes || sizes->empty() || sizes->size() > 16) {
     return fail(ErrorKind::input, "{}: sizes: '{}'", name, header.find("sizes").value_or("missing"));
@@ -74,7 +74,7 @@ Status count_bytes(const TextHeader& header, const std::string& name, PixelLayou
     layout.voxels = *product;
   }
   const std::string type = header.find("type").value_or("missing");
-  const auto scalar = scalar_of(type);
+  const auto scalar = nrrd_scalar(type);
   if (!scalar) return fail(ErrorKind::input, "{}: type: '{}' is not a scalar type", name, type);
   layout.scalar = *scalar;
   const auto total = checked_product(layout.voxels, bytes_of(*scalar));
@@ -118,7 +118,7 @@ Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
   const auto header = read_nrrd_header(file);
   if (!header) return pass_on(header);
   PixelLayout layout{.file = file, .offset = header->end};
-  TIDEMARK_TRY(count_bytes(*header, name, layout));
+  TIDEMARK_TRY(count_nrrd_bytes(*header, name, layout));
   TIDEMARK_TRY(choose_coding(*header, name, layout));
   TIDEMARK_TRY(choose_byte_order(*header, name, layout));
   TIDEMARK_TRY(require_finite_fields(*header, file, {"space directions", "space origin", "spacings"}));

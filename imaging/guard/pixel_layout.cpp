@@ -15,11 +15,6 @@ namespace {
 
 constexpr std::int64_t kBestDeflateRatio = 1032;
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 struct InflateEnd {
   void operator()(z_stream* stream) const { inflateEnd(stream); }
 };
@@ -78,6 +73,11 @@ Status inflate_exactly(const PixelLayout& layout, const Take& take) {
 }
 
 }  // namespace
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
 
 bool has_suffix(const std::filesystem::path& file, const char* suffix) {
   return lower(file.filename().string()).ends_with(suffix);

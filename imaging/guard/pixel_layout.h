@@ -73,6 +73,8 @@ struct TextHeader {
   [[nodiscard]] std::optional<std::string> find(const std::string& name) const;
 };
 
+std::string lower(std::string text);
+
 // Whole numbers separated by blanks; nothing when there is anything else.
 std::optional<std::vector<std::int64_t>> whole_numbers(const std::string& text);
 

@@ -24,11 +24,6 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 // The start of the file, not inflated.
 Result<std::string> read_text(const std::filesystem::path& file) {
   TIDEMARK_TRY(read_start(file, 1));

@@ -19,7 +19,6 @@
 namespace tidemark::imaging {
 namespace {
 
-constexpr long kLongestPdu = 131072;  // DCMTK's largest
 constexpr std::int64_t kLongestHandshake = std::int64_t{1} << 20;
 // One attempt to connect: it cannot be interrupted, so it is short and repeated.
 constexpr int kConnectSeconds = 1;

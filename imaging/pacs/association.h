@@ -27,6 +27,7 @@ Status set_up_network();
 
 // DCMTK's own time-out for calls: so long that the watch ends them first, with a better message.
 constexpr int kNetworkSeconds = 86'400;
+constexpr long kLongestPdu = 131072;  // the largest that DCMTK takes
 
 // One presentation context of ours.
 struct Proposal {

@@ -37,9 +37,9 @@ class Question {
 };
 
 // An answer, in UTF-8 as far as its character sets are known.
-class Answer {
+class FoundAnswer {
  public:
-  explicit Answer(DcmDataset& dataset)
+  explicit FoundAnswer(DcmDataset& dataset)
       : dataset_(dataset),
         character_set_(element_text(dataset, DCM_SpecificCharacterSet).substr(0, kLongestCharacterSet)) {}
   [[nodiscard]] std::string text(const DcmTagKey& key) const {
@@ -76,7 +76,7 @@ Result<std::string> date_range(const std::string& from, const std::string& to) {
   return dicom_date(from).value_or("") + "-" + dicom_date(to).value_or("");
 }
 
-using TakeAnswer = std::function<bool(const Answer&)>;  // false: that was enough
+using TakeAnswer = std::function<bool(const FoundAnswer&)>;  // false: that was enough
 
 // Asks and takes answer by answer. True when the server had more answers than were taken.
 Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer& take,
@@ -120,11 +120,11 @@ Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer&
     auto data = association.receive_data();
     if (!data) return pass_on(data);
     association.watch().completed_message();
-    if (!take(Answer(**data))) return true;  // the association is aborted
+    if (!take(FoundAnswer(**data))) return true;  // the association is aborted
   }
 }
 
-PacsStudy study_of(const Answer& answer) {
+PacsStudy study_of(const FoundAnswer& answer) {
   PacsStudy study;
   study.uid = answer.uid(DCM_StudyInstanceUID);
   study.patient_name = answer.text(DCM_PatientName);
@@ -139,7 +139,7 @@ PacsStudy study_of(const Answer& answer) {
   return study;
 }
 
-PacsSeries series_of(const Answer& answer, const std::string& study_uid) {
+PacsSeries series_of(const FoundAnswer& answer, const std::string& study_uid) {
   PacsSeries series;
   series.uid = answer.uid(DCM_SeriesInstanceUID);
   series.study_uid = study_uid;
@@ -159,7 +159,7 @@ Result<Found<Entry>> collect(const PacsServer& server, Question& question, const
   std::int64_t answers = 0;
   const auto more = ask(
       server, question,
-      [&](const Answer& answer) {
+      [&](const FoundAnswer& answer) {
         if (++answers > limits.answers) return false;
         Entry entry = read(answer);
         if (!entry.uid.empty()) found.entries.push_back(std::move(entry));
@@ -217,7 +217,7 @@ Result<Found<PacsSeries>> find_pacs_series(const PacsServer& server, const Serie
     question.put(DCM_BodyPartExamined);
     question.put(DCM_NumberOfSeriesRelatedInstances);
     return collect<PacsSeries>(server, question, limits, progress,
-                               [&](const Answer& answer) { return series_of(answer, query.study_uid); });
+                               [&](const FoundAnswer& answer) { return series_of(answer, query.study_uid); });
   });
 }
 

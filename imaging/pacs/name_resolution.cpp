@@ -35,7 +35,7 @@ Result<std::string> ask_system(const std::string& host) {
   return std::string(text.data());
 }
 
-struct Answer {
+struct ResolvedName {
   std::mutex mutex;
   std::condition_variable_any came;
   std::optional<Result<std::string>> address;
@@ -45,7 +45,7 @@ struct Answer {
 
 Result<std::string> resolve_host(const std::string& host, std::chrono::milliseconds patience,
                                  const std::stop_token& stop) {
-  const auto answer = std::make_shared<Answer>();
+  const auto answer = std::make_shared<ResolvedName>();
   std::thread([host, answer] {
     auto address = without_exceptions([&] { return ask_system(host); });
     const std::lock_guard lock(answer->mutex);

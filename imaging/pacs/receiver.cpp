@@ -19,7 +19,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr long kLongestPdu = 131072;
 constexpr std::int64_t kLongestCall = std::int64_t{1} << 20;
 constexpr std::size_t kMostConversations = 4;
 // A silent caller keeps others waiting, so it has less time at first than later on.

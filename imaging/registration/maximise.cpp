@@ -36,7 +36,7 @@ class Metric : public itk::MattesMutualInformationImageToImageMetricv4<Image, Im
   }
 };
 
-constexpr unsigned kBins = 32;
+constexpr unsigned kHistogramBins = 32;
 constexpr unsigned kIterations = 120;
 // So many tell the information well; more make a step longer.
 constexpr std::int64_t kSamples = 50000;
@@ -131,7 +131,7 @@ glm::dmat4 to_glm(const Transform& transform) {
 
 Metric::Pointer make_metric(const Volume& moving, const Volume& fixed, Transform* transform) {
   auto metric = Metric::New();
-  metric->SetNumberOfHistogramBins(kBins);
+  metric->SetNumberOfHistogramBins(kHistogramBins);
   metric->SetFixedImage(wrap(fixed));
   metric->SetMovingImage(wrap(moving));
   metric->SetMovingTransform(transform);

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTolerance =
+constexpr double kPlaneTolerance =
     0.2;  // of the distance of slices: planning systems round to a tenth of a millimetre
 constexpr double kFarthest = 1e9;  // voxels
 
@@ -81,7 +81,7 @@ std::optional<int> plane_of(const std::vector<glm::dvec3>& points) {
     high = glm::max(high, point);
   }
   for (const int axis : {2, 1, 0}) {
-    if (high[axis] - low[axis] <= kTolerance) return axis;
+    if (high[axis] - low[axis] <= kPlaneTolerance) return axis;
   }
   return std::nullopt;
 }
@@ -123,7 +123,7 @@ Status RegionFiller::add(DcmItem& contour) {
   const auto axis = plane_of(*points);
   const double place = axis ? points->front()[*axis] : 0.0;
   const double plane = std::round(place);
-  if (!axis || std::abs(place - plane) > kTolerance || (!planes_.empty() && *axis != axis_)) {
+  if (!axis || std::abs(place - plane) > kPlaneTolerance || (!planes_.empty() && *axis != axis_)) {
     return fail(ErrorKind::input, "{}: its contours do not lie in the slices of the volume", file_.string());
   }
   if (plane < 0.0 || plane > static_cast<double>(grid_.size[*axis] - 1)) {
@@ -169,7 +169,7 @@ void RegionFiller::move_into(Segment& segment) {
   });
 }
 
-std::optional<SegmentColour> colour_of(DcmItem& region) {
+std::optional<SegmentColour> contour_colour(DcmItem& region) {
   const auto values = parse_integers(element_text(region, DCM_ROIDisplayColor));
   const auto fits = [](long long value) { return value >= 0 && value <= 255; };
   if (!values || values->size() != 3 || !std::all_of(values->begin(), values->end(), fits))
@@ -227,7 +227,7 @@ Result<Segments> read(const fs::path& file, const Geometry& grid) {
     const auto named = names.find(number);
     Segment segment;
     segment.name = named != names.end() ? named->second : fmt::format("Region {}", number);
-    segment.colour = colour_of(region);
+    segment.colour = contour_colour(region);
     say_what_is_missing(filler, segment.name, segments);
     filler.move_into(segment);
     segments.list.push_back(std::move(segment));

@@ -10,7 +10,7 @@
 namespace tidemark::imaging {
 namespace {
 
-constexpr double kTolerance = 0.1;  // of a voxel: files round their numbers
+constexpr double kFrameTolerance = 0.1;  // of a voxel: files round their numbers
 constexpr double kMostSlices = 4096.0;
 // Of a grid with more than four times the pixels of its frames. Two small frames can say that they lie far
 // apart.
@@ -21,7 +21,7 @@ std::optional<Index3> whole(glm::dvec3 voxels) {
   constexpr double kFarthest = 1e9;
   const glm::dvec3 nearest = glm::round(voxels);
   const glm::dvec3 off = glm::abs(voxels - nearest);
-  if (!(std::max({off.x, off.y, off.z}) <= kTolerance)) return std::nullopt;  // NaN too
+  if (!(std::max({off.x, off.y, off.z}) <= kFrameTolerance)) return std::nullopt;  // NaN too
   if (glm::any(glm::greaterThan(glm::abs(nearest), glm::dvec3(kFarthest)))) return std::nullopt;
   return Index3(nearest);
 }
@@ -60,7 +60,7 @@ std::vector<double> gaps_between(std::vector<double> places, double same) {
 
 bool divides(double step, const std::vector<double>& gaps) {
   return step > 0.0 && std::all_of(gaps.begin(), gaps.end(), [&](double gap) {
-           return gap >= 0.9 * step && std::abs(gap / step - std::round(gap / step)) <= kTolerance;
+           return gap >= 0.9 * step && std::abs(gap / step - std::round(gap / step)) <= kFrameTolerance;
          });
 }
 

@@ -27,7 +27,7 @@ Code code_of(DcmItem& segment, const DcmTagKey& sequence) {
           element_text(*code, DCM_CodeMeaning)};
 }
 
-std::optional<SegmentColour> colour_of(DcmItem& segment) {
+std::optional<SegmentColour> segment_colour(DcmItem& segment) {
   Uint16 l = 0;
   Uint16 a = 0;
   Uint16 b = 0;
@@ -107,7 +107,7 @@ Status SegmentationFile::read_segments(DcmDataset& dataset) {
     Segment segment;
     segment.name = element_text(described, DCM_SegmentLabel);
     if (segment.name.empty()) segment.name = fmt::format("Segment {}", list_.size() + 1);
-    segment.colour = colour_of(described);
+    segment.colour = segment_colour(described);
     segment.meaning = {code_of(described, DCM_SegmentedPropertyCategoryCodeSequence),
                        code_of(described, DCM_SegmentedPropertyTypeCodeSequence)};
     list_.push_back(std::move(segment));

@@ -12,14 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTolerance = 0.1;  // of the distance of slices: positions are rounded in files
+constexpr double kSliceTolerance = 0.1;  // of the distance of slices: positions are rounded in files
 
 // The slice at whose place an image lies.
 std::optional<std::int64_t> slice_at(glm::dvec3 position_mm, const Geometry& geometry) {
   const glm::dvec3 normal = geometry.direction[2];
   const double along = glm::dot(position_mm - geometry.origin_mm, normal) / geometry.spacing_mm.z;
   const double nearest = std::round(along);
-  if (!(std::abs(along - nearest) <= kTolerance) || nearest < 0.0) return std::nullopt;
+  if (!(std::abs(along - nearest) <= kSliceTolerance) || nearest < 0.0) return std::nullopt;
   if (nearest > static_cast<double>(geometry.size.z - 1)) return std::nullopt;
   return static_cast<std::int64_t>(nearest);
 }
@@ -53,7 +53,7 @@ SourceStudy anonymous_study(const Geometry& geometry) {
 bool is_beside(const SliceHeader& image, std::int64_t k, const Geometry& geometry) {
   if (image.columns != geometry.size.x || image.rows != geometry.size.y) return false;
   const glm::dvec3 at = geometry.to_voxel(*image.position_mm) - glm::dvec3(0.0, 0.0, static_cast<double>(k));
-  return std::max(std::abs(at.x), std::abs(at.y)) > kTolerance;
+  return std::max(std::abs(at.x), std::abs(at.y)) > kSliceTolerance;
 }
 
 // Images that were stripped of their UIDs cannot be referred to.

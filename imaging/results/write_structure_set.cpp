@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* kDetachedStudy =
     "1.2.840.10008.3.1.2.3.1";  // the class by which studies are referred to
 
-OFString of(const std::string& text) {
+OFString text_of(const std::string& text) {
   return {text.c_str()};
 }
 
@@ -89,27 +89,28 @@ void StructureSetWriter::identify() {
   DcmDataset& source = study_.attributes();
   const Timestamp now = Timestamp::now();
   failure_ << set_.setSpecificCharacterSet("ISO_IR 192");
-  failure_ << set_.setPatientName(of(element_text(source, DCM_PatientName)), OFFalse);
-  failure_ << set_.setPatientID(of(element_text(source, DCM_PatientID)), OFFalse);
-  failure_ << set_.setPatientBirthDate(of(element_text(source, DCM_PatientBirthDate)), OFFalse);
-  failure_ << set_.setPatientSex(of(element_text(source, DCM_PatientSex)), OFFalse);
-  failure_ << set_.setStudyInstanceUID(of(study_.study_uid), OFFalse);
-  failure_ << set_.setStudyDate(of(element_text(source, DCM_StudyDate)), OFFalse);
-  failure_ << set_.setStudyTime(of(element_text(source, DCM_StudyTime)), OFFalse);
-  failure_ << set_.setStudyID(of(element_text(source, DCM_StudyID)), OFFalse);
-  failure_ << set_.setStudyDescription(of(element_text(source, DCM_StudyDescription)), OFFalse);
-  failure_ << set_.setAccessionNumber(of(element_text(source, DCM_AccessionNumber)), OFFalse);
-  failure_ << set_.setReferringPhysicianName(of(element_text(source, DCM_ReferringPhysicianName)), OFFalse);
+  failure_ << set_.setPatientName(text_of(element_text(source, DCM_PatientName)), OFFalse);
+  failure_ << set_.setPatientID(text_of(element_text(source, DCM_PatientID)), OFFalse);
+  failure_ << set_.setPatientBirthDate(text_of(element_text(source, DCM_PatientBirthDate)), OFFalse);
+  failure_ << set_.setPatientSex(text_of(element_text(source, DCM_PatientSex)), OFFalse);
+  failure_ << set_.setStudyInstanceUID(text_of(study_.study_uid), OFFalse);
+  failure_ << set_.setStudyDate(text_of(element_text(source, DCM_StudyDate)), OFFalse);
+  failure_ << set_.setStudyTime(text_of(element_text(source, DCM_StudyTime)), OFFalse);
+  failure_ << set_.setStudyID(text_of(element_text(source, DCM_StudyID)), OFFalse);
+  failure_ << set_.setStudyDescription(text_of(element_text(source, DCM_StudyDescription)), OFFalse);
+  failure_ << set_.setAccessionNumber(text_of(element_text(source, DCM_AccessionNumber)), OFFalse);
+  failure_ << set_.setReferringPhysicianName(text_of(element_text(source, DCM_ReferringPhysicianName)),
+                                             OFFalse);
 
-  failure_ << set_.setSOPInstanceUID(of(make_uid())) << set_.setSeriesInstanceUID(of(make_uid()));
+  failure_ << set_.setSOPInstanceUID(text_of(make_uid())) << set_.setSeriesInstanceUID(text_of(make_uid()));
   failure_ << set_.setModality("RTSTRUCT") << set_.setSeriesNumber("1001");
   failure_ << set_.setSeriesDescription("Tidemark structure set");
-  failure_ << set_.setSeriesDate(of(now.date)) << set_.setSeriesTime(of(now.time));
+  failure_ << set_.setSeriesDate(text_of(now.date)) << set_.setSeriesTime(text_of(now.time));
   failure_ << set_.setManufacturer("Tidemark") << set_.setManufacturerModelName("Tidemark");
   failure_ << set_.setSoftwareVersions(TIDEMARK_VERSION);
   failure_ << set_.setStructureSetLabel("SEGMENTATION");
-  failure_ << set_.setStructureSetDate(of(now.date)) << set_.setStructureSetTime(of(now.time));
-  failure_ << set_.setFrameOfReferenceUID(of(study_.frame_of_reference_uid));
+  failure_ << set_.setStructureSetDate(text_of(now.date)) << set_.setStructureSetTime(text_of(now.time));
+  failure_ << set_.setFrameOfReferenceUID(text_of(study_.frame_of_reference_uid));
   failure_ << set_.setApprovalStatus("UNAPPROVED");
 }
 
@@ -117,35 +118,35 @@ void StructureSetWriter::identify() {
 void StructureSetWriter::refer_to_source() {
   DRTReferencedFrameOfReferenceSequence::Item* frame = nullptr;
   if (!add(set_.getReferencedFrameOfReferenceSequence(), frame)) return;
-  failure_ << frame->setFrameOfReferenceUID(of(study_.frame_of_reference_uid));
+  failure_ << frame->setFrameOfReferenceUID(text_of(study_.frame_of_reference_uid));
   if (study_.images.empty()) return;
   DRTRTReferencedStudySequence::Item* study = nullptr;
   if (!add(frame->getRTReferencedStudySequence(), study)) return;
   failure_ << study->setReferencedSOPClassUID(kDetachedStudy);
-  failure_ << study->setReferencedSOPInstanceUID(of(study_.study_uid));
+  failure_ << study->setReferencedSOPInstanceUID(text_of(study_.study_uid));
   DRTRTReferencedSeriesSequence::Item* series = nullptr;
   if (!add(study->getRTReferencedSeriesSequence(), series)) return;
-  failure_ << series->setSeriesInstanceUID(of(study_.series_uid));
+  failure_ << series->setSeriesInstanceUID(text_of(study_.series_uid));
   for (const SourceImage& image : study_.images) {
     DRTContourImageSequence::Item* item = nullptr;
     if (!add(series->getContourImageSequence(), item)) return;
-    failure_ << item->setReferencedSOPClassUID(of(image.sop_class_uid));
-    failure_ << item->setReferencedSOPInstanceUID(of(image.sop_instance_uid));
+    failure_ << item->setReferencedSOPClassUID(text_of(image.sop_class_uid));
+    failure_ << item->setReferencedSOPInstanceUID(text_of(image.sop_instance_uid));
   }
 }
 
 Status StructureSetWriter::describe(const Segment& segment, const std::string& number) {
   DRTStructureSetROISequence::Item* region = nullptr;
   TIDEMARK_TRY(add(set_.getStructureSetROISequence(), region));
-  failure_ << region->setROINumber(of(number));
-  failure_ << region->setReferencedFrameOfReferenceUID(of(study_.frame_of_reference_uid));
-  failure_ << region->setROIName(of(short_text(segment.name.empty() ? "Region " + number : segment.name)),
-                                 OFFalse);
+  failure_ << region->setROINumber(text_of(number));
+  failure_ << region->setReferencedFrameOfReferenceUID(text_of(study_.frame_of_reference_uid));
+  failure_ << region->setROIName(
+      text_of(short_text(segment.name.empty() ? "Region " + number : segment.name)), OFFalse);
   failure_ << region->setROIGenerationAlgorithm("SEMIAUTOMATIC");
   DRTRTROIObservationsSequence::Item* observation = nullptr;
   TIDEMARK_TRY(add(set_.getRTROIObservationsSequence(), observation));
-  failure_ << observation->setObservationNumber(of(number))
-           << observation->setReferencedROINumber(of(number));
+  failure_ << observation->setObservationNumber(text_of(number))
+           << observation->setReferencedROINumber(text_of(number));
   failure_ << observation->setRTROIInterpretedType("") << observation->setROIInterpreter("");
   return failure_.status(file_);
 }
@@ -156,14 +157,14 @@ Status StructureSetWriter::add_contour(DRTContourSequence& sequence, const Conto
   if (const auto& place = study_.places[static_cast<std::size_t>(k)]) {
     DRTContourImageSequence::Item* image = nullptr;
     TIDEMARK_TRY(add(item->getContourImageSequence(), image));
-    failure_ << image->setReferencedSOPClassUID(of(study_.images[place->image].sop_class_uid));
-    failure_ << image->setReferencedSOPInstanceUID(of(study_.images[place->image].sop_instance_uid));
+    failure_ << image->setReferencedSOPClassUID(text_of(study_.images[place->image].sop_class_uid));
+    failure_ << image->setReferencedSOPInstanceUID(text_of(study_.images[place->image].sop_instance_uid));
     if (!place->frames.empty()) {
-      failure_ << image->setReferencedFrameNumber(of(fmt::format("{}", fmt::join(place->frames, "\\"))));
+      failure_ << image->setReferencedFrameNumber(text_of(fmt::format("{}", fmt::join(place->frames, "\\"))));
     }
   }
   failure_ << item->setContourGeometricType("CLOSED_PLANAR");
-  failure_ << item->setNumberOfContourPoints(of(fmt::format("{}", contour.size())));
+  failure_ << item->setNumberOfContourPoints(text_of(fmt::format("{}", contour.size())));
   std::string points;
   for (const glm::dvec2 point : contour) {
     const glm::dvec3 mm = geometry_.to_patient({point.x, point.y, static_cast<double>(k)});
@@ -171,7 +172,7 @@ Status StructureSetWriter::add_contour(DRTContourSequence& sequence, const Conto
       points.append(points.empty() ? "" : "\\").append(coordinate(value, digits_));
     }
   }
-  failure_ << item->setContourData(of(points), OFFalse);  // not checked number by number
+  failure_ << item->setContourData(text_of(points), OFFalse);  // not checked number by number
   return failure_.status(file_);
 }
 
@@ -179,9 +180,9 @@ Status StructureSetWriter::add_contours(const Segment& segment, const std::strin
                                         const Progress& progress) {
   DRTROIContourSequence::Item* region = nullptr;
   TIDEMARK_TRY(add(set_.getROIContourSequence(), region));
-  failure_ << region->setReferencedROINumber(of(number));
+  failure_ << region->setReferencedROINumber(text_of(number));
   const auto [red, green, blue] = segment.colour.value_or(kDefaultColour);
-  failure_ << region->setROIDisplayColor(of(fmt::format("{}\\{}\\{}", red, green, blue)));
+  failure_ << region->setROIDisplayColor(text_of(fmt::format("{}\\{}\\{}", red, green, blue)));
   for (const auto& [k, slice] : segment.slices) {
     if (progress.cancelled()) return cancelled_error();
     for (const Contour& contour : contours_of(segment, geometry_, k)) {

@@ -13,8 +13,6 @@ constexpr std::int64_t kPieceColumns = 128;
 // Few rows at most, as behind an empty row a hard one may come.
 constexpr std::int64_t kLeastRows = 4;
 constexpr std::int64_t kMostRows = 16;
-// Pieces are to take this long, which leaves room for the next one to be harder.
-constexpr double kWantedPiece = 0.3 * Canvas::kLongestPiece;
 
 }  // namespace
 

@@ -23,6 +23,8 @@ struct DrawReport {
 class Canvas {
  public:
   static constexpr double kLongestPiece = 0.020;  // seconds
+  // What a piece is to take leaves room for the next one to be harder.
+  static constexpr double kWantedPiece = 0.3 * kLongestPiece;
 
   Canvas() = default;
   // `filter`: for reading its texture between texels.

@@ -5,12 +5,6 @@
 #include "gpu/device.h"
 
 namespace tidemark::renderer {
-namespace {
-
-// Leaves room for work that is harder than the measured one.
-constexpr double kWantedPiece = 0.3 * Canvas::kLongestPiece;
-
-}  // namespace
 
 // The compiling of a first draw is no piece: it happens in this thread, and no other context waits for it. It
 // may depend on the program before (gpu::SamplerSlots).
@@ -28,7 +22,7 @@ Status DrawThrottle::prepare(const gpu::Program& program) {
 }
 
 Status DrawThrottle::before(double work) {
-  if (on_its_way_ > 0.0 && (on_its_way_ + work) * seconds_each_ > kWantedPiece) {
+  if (on_its_way_ > 0.0 && (on_its_way_ + work) * seconds_each_ > Canvas::kWantedPiece) {
     TIDEMARK_TRY(wait());
   }
   if (on_its_way_ == 0.0) since_begun_.restart();
@@ -59,7 +53,7 @@ Status DrawThrottle::things(const gpu::Program& program, std::int64_t count, std
   TIDEMARK_TRY(prepare(program));
   const double each = weight * static_cast<double>(std::max<std::int64_t>(fragments_each, 1));
   for (std::int64_t first = 0; first < count;) {
-    const auto most = static_cast<std::int64_t>(kWantedPiece / (each * seconds_each_));
+    const auto most = static_cast<std::int64_t>(Canvas::kWantedPiece / (each * seconds_each_));
     const std::int64_t some = std::clamp<std::int64_t>(most, 1, count - first);
     if (progress_.cancelled()) return cancelled_error();
     TIDEMARK_TRY(before(each * static_cast<double>(some)));

@@ -13,7 +13,6 @@ namespace tidemark::renderer {
 namespace {
 
 constexpr int kMostLayers = 64;  // of surface, labels and clip plane along a ray
-constexpr float kNever = 1e9F;
 
 // Offsets without a pattern that the eye finds (interleaved gradient noise, Jimenez 2014).
 float jitter(glm::vec2 pixel, int round) {

@@ -13,6 +13,8 @@
 
 namespace tidemark::renderer {
 
+inline constexpr float kNever = 1e9F;  // beyond the end of every ray
+
 // For one picture of a view that is resolved(). Several threads may cast rays at once.
 class RayCaster {
  public:

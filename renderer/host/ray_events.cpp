@@ -12,8 +12,6 @@
 namespace tidemark::renderer {
 namespace {
 
-constexpr float kNever = 1e9F;
-
 glm::ivec3 nearest_voxel(glm::vec3 p) {
   return glm::ivec3(glm::floor(p + 0.5F));
 }

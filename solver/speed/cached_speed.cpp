@@ -13,11 +13,6 @@ namespace {
 // together.
 constexpr std::int64_t kLongestRun = 8;
 
-VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
-  const Index3 first = glm::max(a.first, b.first);
-  return {first, glm::min(a.first + a.size, b.first + b.size) - first};
-}
-
 // Where a voxel of the grid lies in an array of that shape whose first voxel is `first`.
 std::int64_t offset(Index3 voxel, Index3 first, Index3 shape) {
   const Index3 at = voxel - first;

@@ -28,6 +28,12 @@ struct VoxelBox {
   [[nodiscard]] std::int64_t voxels() const { return size.x * size.y * size.z; }
 };
 
+// The voxels that are in both.
+inline VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
+  const Index3 first = glm::max(a.first, b.first);
+  return {first, glm::max(glm::min(a.first + a.size, b.first + b.size) - first, Index3(0))};
+}
+
 // An immutable function of the voxel. All of its methods may be called from several threads at once, and give
 // the same bits for a voxel whichever box it is asked for in.
 class SpeedFunction {

@@ -23,6 +23,7 @@ class GeometryEngine {
  public:
   // Pages lie side by side in the intermediate buffers and in the message.
   static constexpr std::int64_t kPlacesPerRow = 32;
+  static constexpr std::int64_t kPageSide = 16;
 
   GeometryEngine() = default;
   static GeometryEngine create(gpu::Device& device, const PackedLayout& layout);

@@ -6,9 +6,9 @@
 namespace tidemark::solver {
 namespace {
 
-constexpr std::int64_t kPageSide = 16;
-constexpr std::int64_t kPageTexels = kPageSide * kPageSide;
+constexpr std::int64_t kPageSide = GeometryEngine::kPageSide;
 constexpr std::int64_t kPlacesPerRow = GeometryEngine::kPlacesPerRow;
+constexpr std::int64_t kPageTexels = kPageSide * kPageSide;
 
 }  // namespace
 

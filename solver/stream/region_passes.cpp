@@ -10,12 +10,11 @@ namespace tidemark::solver {
 namespace {
 
 constexpr Substream kSubstreams[] = {Substream::interior, Substream::edges, Substream::corners};
-constexpr std::int64_t kPageSide = 16;
 constexpr int kPageLevel = 2;  // of mipmaps: one texel a page, from 4 x 4 blocks
-constexpr std::int64_t kPlacesPerRow = GeometryEngine::kPlacesPerRow;
 
 std::int64_t whole_rows(std::int64_t pages) {
-  return (pages + kPlacesPerRow - 1) / kPlacesPerRow * kPlacesPerRow;
+  return (pages + GeometryEngine::kPlacesPerRow - 1) / GeometryEngine::kPlacesPerRow *
+         GeometryEngine::kPlacesPerRow;
 }
 
 void bind(const gpu::Program& program, unsigned unit, const gpu::Texture2D& texture, const char* sampler) {
@@ -50,16 +49,16 @@ std::int64_t RegionPasses::pooled_bytes() const {
 
 // How many pages of intermediate buffers a list needs; as many as there are while these do.
 std::int64_t RegionPasses::pool_size(std::int64_t pages, std::int64_t largest, std::int64_t present) {
-  const auto wanted = static_cast<std::int64_t>(
-      std::bit_ceil(static_cast<std::uint64_t>(std::max<std::int64_t>(pages, kPlacesPerRow))));
+  const auto wanted = static_cast<std::int64_t>(std::bit_ceil(
+      static_cast<std::uint64_t>(std::max<std::int64_t>(pages, GeometryEngine::kPlacesPerRow))));
   const std::int64_t size = std::min(wanted, largest);
   return size <= present && present <= 4 * size ? present : size;
 }
 
 Status RegionPasses::make_pool(gpu::Device& device, std::int64_t pages,
                                std::initializer_list<Pooled> textures) {
-  const std::int64_t width = kPlacesPerRow * kPageSide;
-  const std::int64_t height = pages / kPlacesPerRow * kPageSide;
+  const std::int64_t width = GeometryEngine::kPlacesPerRow * GeometryEngine::kPageSide;
+  const std::int64_t height = pages / GeometryEngine::kPlacesPerRow * GeometryEngine::kPageSide;
   for (const Pooled& pooled : textures) {
     auto made = gpu::Texture2D::create(device, pooled.format, width / pooled.divisor, height / pooled.divisor,
                                        pooled.label, pooled.mipmaps);
@@ -99,9 +98,10 @@ Status RegionPasses::reserve(gpu::Device& device, std::int64_t pages) {
 
 Status RegionPasses::reserve_message(gpu::Device& device, std::int64_t pages) {
   using gpu::TexelFormat;
-  const std::int64_t message_rows = whole_rows(std::max<std::int64_t>(pages, 1)) / kPlacesPerRow;
+  const std::int64_t message_rows =
+      whole_rows(std::max<std::int64_t>(pages, 1)) / GeometryEngine::kPlacesPerRow;
   if (message_.height() < message_rows) {
-    auto message = gpu::Texture2D::create(device, gpu::TexelFormat::r8, kPlacesPerRow,
+    auto message = gpu::Texture2D::create(device, gpu::TexelFormat::r8, GeometryEngine::kPlacesPerRow,
                                           message_rows + message_rows / 4, "message");
     if (!message) return pass_on(message);
     auto target = gpu::Framebuffer::create(device, {&*message}, "message");
@@ -228,16 +228,16 @@ Result<std::vector<PageMessage>> RegionPasses::read_message(std::int64_t pages) 
   const std::int64_t count = whole_rows(pages);
   std::vector<PageMessage> message(static_cast<std::size_t>(count));
   static_assert(sizeof(PageMessage) == 1);
-  TIDEMARK_TRY(message_.download({0, 0, kPlacesPerRow, count / kPlacesPerRow},
+  TIDEMARK_TRY(message_.download({0, 0, GeometryEngine::kPlacesPerRow, count / GeometryEngine::kPlacesPerRow},
                                  std::as_writable_bytes(std::span(message))));
   message.resize(static_cast<std::size_t>(pages));
   return message;
 }
 
 Status RegionPasses::read_first_page(PassRecord& record) const {
-  constexpr gpu::TexelRect kPage{0, 0, kPageSide, kPageSide};
+  constexpr gpu::TexelRect kPage{0, 0, GeometryEngine::kPageSide, GeometryEngine::kPageSide};
   const auto read = [&](const gpu::Texture2D& texture, std::vector<glm::vec4>& values) {
-    values.resize(kPageSide * kPageSide);
+    values.resize(GeometryEngine::kPageSide * GeometryEngine::kPageSide);
     return texture.download(kPage, std::as_writable_bytes(std::span(values)));
   };
   const gpu::Texture2D* differences[] = {&upwind_, &central_, &second_, &mixed_};

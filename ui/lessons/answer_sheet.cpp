@@ -1,21 +1,17 @@
 #include "ui/lessons/answer_sheet.h"
 
-#include <QCoreApplication>
 #include <QPdfWriter>
 #include <QTextDocument>
 
 #include "core/atomic_file.h"
 #include "ui/lessons/lesson_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr int kResolution = 300;  // dots per inch
 constexpr double kMargin = 18.0;  // mm
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("tidemark::AnswerSheet", text);
-}
 
 QString html(const std::string& text) {
   return QString::fromStdString(text).toHtmlEscaped().replace(QChar('\n'), QStringLiteral("<br/>"));

@@ -11,7 +11,7 @@ namespace {
 
 using document::Start;
 
-QString text(const char* words) {
+QString setup_text(const char* words) {
   return QCoreApplication::translate("CaseSetup", words);
 }
 
@@ -57,11 +57,11 @@ std::int64_t steps_before(const document::Lesson& lesson, std::size_t part) {
 
 void add_remarks(const CaseSetup& setup, QStringList& said) {
   if (!setup.is_plain) {
-    said << text(QT_TRANSLATE_NOOP(
+    said << setup_text(QT_TRANSLATE_NOOP(
         "CaseSetup", "The case is driven or held by more than T and ε, which a lesson does not have."));
   }
   if (setup.was_edited) {
-    said << text(QT_TRANSLATE_NOOP(
+    said << setup_text(QT_TRANSLATE_NOOP(
         "CaseSetup", "The case was changed on its way, so that the lesson's run can end elsewhere."));
   }
 }
@@ -69,7 +69,7 @@ void add_remarks(const CaseSetup& setup, QStringList& said) {
 void take_start(const CaseSetup& setup, const Start* inherited, std::optional<Start>& start,
                 QStringList& said) {
   if (!can_be_written(setup.start)) {
-    said << text(QT_TRANSLATE_NOOP(
+    said << setup_text(QT_TRANSLATE_NOOP(
         "CaseSetup",
         "The case begins with a mask or a saved level set, which a lesson does not hold: begin the case with "
         "seeds, a threshold or a flood."));
@@ -129,9 +129,9 @@ QString put_into_part(const CaseSetup& setup, document::Lesson& lesson, std::siz
   if (attempt.goes_on) {
     attempt.steps = std::max<std::int64_t>(setup.steps - steps_before(lesson, index), 0);
   } else if (setup.start.empty()) {
-    said << text(QT_TRANSLATE_NOOP("CaseSetup", "The case has no surface yet, so no start was taken."));
+    said << setup_text(QT_TRANSLATE_NOOP("CaseSetup", "The case has no surface yet, so no start was taken."));
   } else if (!setup.is_on(lesson.study_of(part), folder)) {
-    said << text(QT_TRANSLATE_NOOP(
+    said << setup_text(QT_TRANSLATE_NOOP(
         "CaseSetup", "The case is of another study than the part, so its start was not taken."));
   } else {
     const bool own_study = part.study && !(*part.study == lesson.study);
@@ -152,7 +152,7 @@ QString put_into_lesson(const CaseSetup& setup, document::Lesson& lesson,
   if (!setup.origin.phantom.empty()) {
     if (!setup.is_on(lesson.study, folder)) lesson.study = {setup.origin.phantom, {}};
   } else if (!setup.is_on(lesson.study, folder)) {
-    said << text(QT_TRANSLATE_NOOP(
+    said << setup_text(QT_TRANSLATE_NOOP(
         "CaseSetup",
         "The case is of another study than the lesson: choose its file first, so that the start fits."));
   }

@@ -12,7 +12,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kLines = 3;
+constexpr int kAboutLines = 3;
 constexpr double kMostMinutes = 1000.0;
 
 }  // namespace
@@ -30,7 +30,7 @@ LessonForm::LessonForm(QWidget* parent) : QWidget(parent) {
 
 void LessonForm::add_words(Form& form) {
   title_ = new QLineEdit;
-  about_ = make_text_box(kLines);
+  about_ = make_text_box(kAboutLines);
   author_ = new QLineEdit;
   minutes_ = make_number_box(0.0, kMostMinutes, 0);
   minutes_->setSpecialValueText(tr("not said"));

@@ -12,12 +12,12 @@
 #include "ui/lessons/lesson_text.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr int kProgressRange = 1000;
-const QString kNothing = QStringLiteral("–");
 
 // Wraps, and shows its text as it is written.
 QLabel* plain_label(const QString& text) {

@@ -9,7 +9,7 @@
 namespace tidemark::ui {
 namespace {
 
-QString text(const char* words) {
+QString problem_text(const char* words) {
   return QCoreApplication::translate("LessonProblem", words);
 }
 
@@ -45,7 +45,7 @@ constexpr std::pair<const char*, const char*> kFields[] = {
 
 QString field_text(const QString& field) {
   for (const auto& [name, words] : kFields) {
-    if (field == QLatin1String(name)) return text(words);
+    if (field == QLatin1String(name)) return problem_text(words);
   }
   return field;
 }
@@ -67,7 +67,7 @@ QStringList place_text(const QString& place) {
 QString part_text(const document::Lesson& lesson, std::size_t part) {
   const QString title =
       part < lesson.parts.size() ? QString::fromStdString(lesson.parts[part].title) : QString();
-  const QString number = text(QT_TRANSLATE_NOOP("LessonProblem", "Part %1")).arg(part + 1);
+  const QString number = problem_text(QT_TRANSLATE_NOOP("LessonProblem", "Part %1")).arg(part + 1);
   return title.trimmed().isEmpty() ? number : QStringLiteral("%1 “%2”").arg(number, title);
 }
 
@@ -88,7 +88,7 @@ LessonProblem in_words(const std::string& message, const document::Lesson& lesso
     words << part_text(lesson, *problem.part);
     field.remove(0, part.capturedLength());
   } else {
-    words << text(QT_TRANSLATE_NOOP("LessonProblem", "Lesson"));
+    words << problem_text(QT_TRANSLATE_NOOP("LessonProblem", "Lesson"));
   }
   words << place_text(field);
   problem.sentence =
@@ -108,7 +108,8 @@ std::optional<LessonProblem> problem_of(const document::Lesson& lesson, const do
                                      [](const document::LessonMeasure& one) { return one.low > one.high; });
     if (turned == measures.end()) continue;
     return LessonProblem{
-        text(QT_TRANSLATE_NOOP("LessonProblem", "%1, figure %2: the range ends below where it begins"))
+        problem_text(
+            QT_TRANSLATE_NOOP("LessonProblem", "%1, figure %2: the range ends below where it begins"))
             .arg(part_text(titled, i))
             .arg(turned - measures.begin() + 1),
         i};

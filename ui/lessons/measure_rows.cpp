@@ -16,7 +16,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kLargest = 1e12;
+constexpr double kLargestFigure = 1e12;
 constexpr double kTolerance = 5.0;  // percent
 
 const document::LessonFigure& figure_of(const document::LessonMeasure& measure) {
@@ -139,7 +139,7 @@ QWidget* MeasureRows::make_figure(std::size_t index) {
 NumberBox* MeasureRows::make_end(std::size_t index, const QString& name,
                                  double document::LessonMeasure::*end) {
   const int digits = figure_of((*measures_)[index]).digits;
-  NumberBox* box = make_number_box(-kLargest, kLargest, digits);
+  NumberBox* box = make_number_box(-kLargestFigure, kLargestFigure, digits);
   // Its range would make it wide.
   box->setFixedWidth(box->fontMetrics().horizontalAdvance(QStringLiteral("000000.0000")) + 2 * kSpaceGroups);
   show_number(*box, (*measures_)[index].*end, digits);

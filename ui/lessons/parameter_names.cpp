@@ -7,15 +7,15 @@ namespace {
 
 using solver::Parameters;
 
-constexpr double kLargest = 1e9;
+constexpr double kLargestValue = 1e9;
 
 const NamedParameter kParameters[] = {
     {QT_TRANSLATE_NOOP("Parameters", "Target T"),
      QT_TRANSLATE_NOOP("Parameters", "The value of the wanted tissue, in the study's units."),
-     &Parameters::target, -kLargest, kLargest, 2},
+     &Parameters::target, -kLargestValue, kLargestValue, 2},
     {QT_TRANSLATE_NOOP("Parameters", "Range ε"),
      QT_TRANSLATE_NOOP("Parameters", "How far a value may be from T for the surface to grow there."),
-     &Parameters::range, solver::kMinimumRange, kLargest, 2},
+     &Parameters::range, solver::kMinimumRange, kLargestValue, 2},
     {QT_TRANSLATE_NOOP("Parameters", "Data weight α"),
      QT_TRANSLATE_NOOP("Parameters", "At 1 the data alone counts, at 0 the curvature alone."),
      &Parameters::alpha, 0.0, 1.0, 3},

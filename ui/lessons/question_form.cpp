@@ -13,13 +13,13 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kLines = 2;
+constexpr int kQuestionLines = 2;
 
 }  // namespace
 
 QuestionForm::QuestionForm(QWidget* parent)
     : QGroupBox(tr("&Question before the try"), parent),
-      text_(make_text_box(kLines)),
+      text_(make_text_box(kQuestionLines)),
       choices_(new RowGrid({tr("Right"), tr("Choice"), QString()}, 1)),
       add_(new QPushButton(icon(u"add"), tr("Add a choice"))),
       none_wrong_(new QRadioButton(tr("None is wrong"))) {

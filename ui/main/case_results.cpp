@@ -8,6 +8,7 @@
 #include "ui/main/ask_for_labels.h"
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
+#include "ui/main/status_bar.h"
 #include "ui/opening/loading_view.h"
 #include "ui/results/send_result_dialog.h"
 #include "ui/results/write_result_dialog.h"
@@ -16,7 +17,6 @@ namespace tidemark::ui {
 namespace {
 
 const char* const kAboutImport = "import of labels";
-constexpr int kShownMs = 8000;  // in the status bar
 
 }  // namespace
 

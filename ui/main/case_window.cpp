@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kKind = "view_kind";      // property of a dock
 constexpr const char* kNumber = "view_number";  // of its name, by which Qt finds it in a saved state
-constexpr int kStateVersion = 1;
+constexpr int kLayoutVersion = 1;
 
 ViewKind kind_of(const QDockWidget* dock) {
   return static_cast<ViewKind>(dock->property(kKind).toInt());
@@ -297,10 +297,10 @@ void CaseWindow::toggle_maximised(QDockWidget* dock) {
     return;
   }
   if (!before_maximised_.isEmpty()) {
-    restoreState(std::exchange(before_maximised_, {}), kStateVersion);
+    restoreState(std::exchange(before_maximised_, {}), kLayoutVersion);
     return;
   }
-  before_maximised_ = saveState(kStateVersion);
+  before_maximised_ = saveState(kLayoutVersion);
   for (QDockWidget* other : docks_) {
     if (other != dock && !other->isFloating()) other->hide();
   }
@@ -355,7 +355,7 @@ QByteArray CaseWindow::arrangement() const {
     numbers << dock->property(kNumber).toInt();
   }
   // One view that is large for a moment does not make the others go.
-  const QByteArray state = before_maximised_.isEmpty() ? saveState(kStateVersion) : before_maximised_;
+  const QByteArray state = before_maximised_.isEmpty() ? saveState(kLayoutVersion) : before_maximised_;
   stream << static_cast<int>(layout_) << kinds << state << numbers;
   return bytes;
 }
@@ -389,7 +389,7 @@ void CaseWindow::restore_arrangement(const QByteArray& arrangement) {
     docks_made_ = std::max(docks_made_, numbers[i]);
     addDockWidget(Qt::LeftDockWidgetArea, make_dock(static_cast<ViewKind>(kinds[i]), numbers[i]));
   }
-  if (!restoreState(state, kStateVersion)) arrange(layout_);
+  if (!restoreState(state, kLayoutVersion)) arrange(layout_);
 }
 
 std::string CaseWindow::view_state() const {

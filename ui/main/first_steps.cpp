@@ -1,20 +1,16 @@
 #include "ui/main/first_steps.h"
 
-#include <QCoreApplication>
 #include <QDialog>
 #include <QTextBrowser>
 #include <QVBoxLayout>
 
 #include "ui/views/mouse_scheme.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr const char* kName = "first-steps-page";  // of the one window
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("FirstSteps", text);
-}
 
 QString row(const QString& what, const QString& how) {
   return QStringLiteral("<tr><td>%1</td><td>&nbsp;&nbsp;</td><td>%2</td></tr>").arg(what, how);

@@ -25,9 +25,9 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kWidth = 320;  // logical pixels
+constexpr int kDockWidth = 320;  // logical pixels
 constexpr QSize kPassesWindow{970, 730};
-constexpr int kStateVersion = 2;
+constexpr int kDocksVersion = 2;
 constexpr int kStateWithoutHistory = 1;       // of arrangements from before there was that panel
 constexpr const char* kInFront = "in_front";  // property of a panel
 
@@ -73,7 +73,7 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   for (qsizetype next = 1; next < docks.size(); ++next)
     window_.tabifyDockWidget(docks[next - 1], docks[next]);
   window_.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::East);
-  window_.resizeDocks({docks[0]}, {kWidth}, Qt::Horizontal);
+  window_.resizeDocks({docks[0]}, {kDockWidth}, Qt::Horizontal);
   docks[0]->raise();
   // For lectures, and as a window of its own as wide as its columns.
   docks.back()->hide();
@@ -95,7 +95,7 @@ QDockWidget* PanelDocks::add(const char* name, const QString& title, QWidget* pa
   column->addWidget(head);
   column->addWidget(panel, 1);
   dock->setWidget(headed);
-  dock->setMinimumWidth(kWidth);
+  dock->setMinimumWidth(kDockWidth);
   window_.addDockWidget(Qt::RightDockWidgetArea, dock);
   docks_ << dock;
   // Qt calls a panel behind another tab visible. Ours are hidden there, while their docks keep their size.
@@ -159,7 +159,7 @@ void PanelDocks::show_or_hide() {
   if (show_them == shown_) return;
   if (show_them) {
     shown_ = true;
-    window_.restoreState(arrangement_, kStateVersion);
+    window_.restoreState(arrangement_, kDocksVersion);
     if (!front_.isEmpty()) show(std::exchange(front_, {}));
   } else {
     arrangement_ = arrangement();
@@ -169,11 +169,11 @@ void PanelDocks::show_or_hide() {
 }
 
 QByteArray PanelDocks::arrangement() const {
-  return shown_ ? window_.saveState(kStateVersion) : arrangement_;
+  return shown_ ? window_.saveState(kDocksVersion) : arrangement_;
 }
 
 void PanelDocks::restore(const QByteArray& arrangement) {
-  if (!window_.restoreState(arrangement, kStateVersion) &&
+  if (!window_.restoreState(arrangement, kDocksVersion) &&
       window_.restoreState(arrangement, kStateWithoutHistory)) {
     window_.tabifyDockWidget(window_.findChild<QDockWidget*>("level-set"),
                              window_.findChild<QDockWidget*>("history"));

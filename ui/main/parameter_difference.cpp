@@ -1,19 +1,15 @@
 #include "ui/main/parameter_difference.h"
 
-#include <QCoreApplication>
 #include <algorithm>
 #include <functional>
 
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
 
 using Text = std::function<QString(const solver::Parameters&)>;
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("ParameterDifference", text);
-}
 
 Text number(const char* name, double solver::Parameters::*value) {
   return

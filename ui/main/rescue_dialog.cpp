@@ -1,6 +1,5 @@
 #include "ui/main/rescue_dialog.h"
 
-#include <QCoreApplication>
 #include <QDateTime>
 #include <QFileInfo>
 #include <QLocale>
@@ -9,15 +8,12 @@
 #include <algorithm>
 
 #include "engine/phantom_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr std::size_t kMostListed = 8;
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("RescueDialog", text);
-}
 
 QString text_of(const std::filesystem::path& path) {
   return QString::fromStdU16String(path.u16string());

@@ -12,6 +12,8 @@ namespace tidemark::ui {
 class LoadingView;
 class ValueBar;
 
+constexpr int kShownMs = 8000;  // a message about what was done
+
 class StatusBar : public QStatusBar {
   Q_OBJECT
  public:

@@ -24,7 +24,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kWidth = 340;         // logical pixels
+constexpr int kLessonWidth = 340;   // logical pixels
 constexpr double kLargeType = 1.5;  // of the usual font
 constexpr const char* kAboutLessons = "lesson";
 
@@ -129,7 +129,7 @@ void Teaching::show(document::Lesson lesson, const std::filesystem::path& file,
     dock_ = new QDockWidget(tr("Lesson"), &window_);
     dock_->setObjectName("lesson");
     let_title_follow_font(*dock_);
-    dock_->setMinimumWidth(kWidth);
+    dock_->setMinimumWidth(kLessonWidth);
     window_.addDockWidget(Qt::LeftDockWidgetArea, dock_);
   }
   dock_->setWidget(content);

@@ -12,13 +12,13 @@
 #include "ui/main/ask_for_labels.h"
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
+#include "ui/main/status_bar.h"
 #include "ui/opening/loading_view.h"
 
 namespace tidemark::ui {
 namespace {
 
 const char* const kAboutTruth = "comparison with a mask";
-constexpr int kShownMs = 8000;  // in the status bar
 
 }  // namespace
 

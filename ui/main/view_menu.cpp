@@ -1,6 +1,5 @@
 #include "ui/main/view_menu.h"
 
-#include <QCoreApplication>
 #include <QMenu>
 
 #include "engine/case_balance.h"
@@ -9,13 +8,10 @@
 #include "ui/panels/window_presets.h"
 #include "ui/views/picture_view.h"
 #include "ui/views/probe_drags.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("ViewMenu", text);
-}
 
 // The case may be gone before the menu is; its views are gone then, too.
 void add_place(QMenu& menu, PictureView& view, std::optional<glm::dvec3> place_mm) {

@@ -1,6 +1,5 @@
 #include "ui/panels/balance_text.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 #include <algorithm>
 #include <cmath>
@@ -8,13 +7,10 @@
 #include <vector>
 
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("Balance", text);
-}
 
 // The terms that push to one side, the strongest first; those that hardly count beside it are left out.
 QStringList pushing(const solver::Pushes& pushes, double side) {

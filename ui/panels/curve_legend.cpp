@@ -8,7 +8,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kSwatch = 22;
+constexpr int kLineSwatch = 22;
 
 }  // namespace
 
@@ -35,8 +35,8 @@ void CurveLegend::paintEvent(QPaintEvent* /*event*/) {
   double left = 0.0;
   const auto entry = [&](const QPen& pen, const QString& text) {
     painter.setPen(pen);
-    painter.drawLine(QPointF(left, middle), QPointF(left + kSwatch, middle));
-    left += kSwatch + kSpaceTight;
+    painter.drawLine(QPointF(left, middle), QPointF(left + kLineSwatch, middle));
+    left += kLineSwatch + kSpaceTight;
     painter.setPen(palette().color(QPalette::WindowText));
     const QString shown = fontMetrics().elidedText(text, Qt::ElideRight, width() - static_cast<int>(left));
     painter.drawText(QRectF(left, 0.0, width() - left, height()), Qt::AlignLeft | Qt::AlignVCenter, shown);

@@ -11,8 +11,6 @@
 namespace tidemark::ui {
 namespace {
 
-const QString kNothing = QStringLiteral("–");
-
 // Nothing is known of a surface that has not been watched for a while.
 QString moving_text(const engine::CaseState& state) {
   if (!state.begun || !document::has_surface(state.outcome)) return kNothing;

@@ -19,8 +19,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kSmallest = 0.5;  // voxels
-constexpr double kLargest = 50.0;
+constexpr double kSmallestVoxels = 0.5;  // voxels
+constexpr double kLargestVoxels = 50.0;
 constexpr std::size_t kMostToCount = 20000;  // strokes from files can be whole organs
 
 QString text_of(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {
@@ -44,7 +44,7 @@ ExampleControls::ExampleControls(QWidget* parent) : CaseWidget(parent), content_
   outside_ = form.figure(tr("Outside"), tr("Strokes and voxels of all else, blue and hatched."));
   radius_ = form.slider(tr("Brush"), tr("Radius of a stroke in its slice. In a view: Shift and the wheel."));
   radius_->set_decimals(1);
-  radius_->set_range(kSmallest, kLargest, SliderNumber::Scale::logarithmic);
+  radius_->set_range(kSmallestVoxels, kLargestVoxels, SliderNumber::Scale::logarithmic);
   radius_->set_unit(tr("voxels"));
   connect(radius_, &SliderNumber::edited, this, [this](double value) {
     change_display([=](engine::DisplaySettings& settings) { settings.stroke_voxels = value; });

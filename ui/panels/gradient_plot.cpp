@@ -10,8 +10,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kSwatch = 9.0;
-constexpr double kTickPixels = 44.0;
+constexpr double kBandSwatch = 9.0;
+constexpr double kGradientTickPixels = 44.0;
 constexpr int kLight = 90;  // opacity of the whole band's bars
 
 PlotAxis axis_of(const QRectF& area, double highest) {
@@ -74,10 +74,11 @@ void GradientPlot::paint_bars(QPainter& painter, const QRectF& area) const {
 void GradientPlot::paint_axis(QPainter& painter, const QRectF& area) const {
   const PlotAxis axis = axis_of(area, kTargets * target_);
   painter.setPen(palette().color(QPalette::WindowText));
-  for (const double tick : ticks(axis, kTickPixels)) {
+  for (const double tick : ticks(axis, kGradientTickPixels)) {
     const double x = axis.pixel(tick);
     painter.drawLine(QPointF(x, area.bottom()), QPointF(x, area.bottom() + 2.0));
-    QRectF place(x - 0.5 * kTickPixels, area.bottom() + 2.0, kTickPixels, fontMetrics().height());
+    QRectF place(x - 0.5 * kGradientTickPixels, area.bottom() + 2.0, kGradientTickPixels,
+                 fontMetrics().height());
     Qt::Alignment along = Qt::AlignHCenter;
     if (place.left() < 0.0) {
       place.moveLeft(0.0);
@@ -96,8 +97,8 @@ void GradientPlot::paint_legend(QPainter& painter) const {
   double left = 0.0;
   const auto entry = [&](const QColor& colour, const QString& text) {
     const double line = fontMetrics().height();
-    painter.fillRect(QRectF(left, 0.5 * (line - kSwatch), kSwatch, kSwatch), colour);
-    left += kSwatch + kSpaceTight;
+    painter.fillRect(QRectF(left, 0.5 * (line - kBandSwatch), kBandSwatch, kBandSwatch), colour);
+    left += kBandSwatch + kSpaceTight;
     painter.setPen(palette().color(QPalette::WindowText));
     painter.drawText(QRectF(left, 0.0, width() - left, line), Qt::AlignLeft | Qt::AlignVCenter, text);
     left += fontMetrics().horizontalAdvance(text) + kSpace;

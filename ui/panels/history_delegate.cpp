@@ -12,7 +12,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kPicture = 48;
+constexpr int kStatePicture = 48;
 constexpr int kLaneWidth = 12;
 constexpr int kMostLanes = 5;  // lines further right share the last one
 constexpr double kNode = 4.0;  // radius
@@ -100,8 +100,8 @@ void HistoryDelegate::paint(QPainter* painter, const QStyleOptionViewItem& optio
   painter->setRenderHint(QPainter::Antialiasing);
   painter->setClipRect(whole);
   paint_lanes(*painter, whole, *item, option.palette);
-  const QRect picture(whole.left() + lanes + kSpaceTight, whole.top() + (whole.height() - kPicture) / 2,
-                      kPicture, kPicture);
+  const QRect picture(whole.left() + lanes + kSpaceTight, whole.top() + (whole.height() - kStatePicture) / 2,
+                      kStatePicture, kStatePicture);
   paint_picture(*painter, picture, *item);
   paint_words(*painter, whole.adjusted(picture.right() + kSpace - whole.left(), 0, -kSpaceTight, 0), *item,
               row);
@@ -110,7 +110,7 @@ void HistoryDelegate::paint(QPainter* painter, const QStyleOptionViewItem& optio
 
 QSize HistoryDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex&) const {
   const int words = 3 * option.fontMetrics.height();
-  return {kPicture + kLaneWidth, std::max(kPicture, words) + kSpaceTight};
+  return {kStatePicture + kLaneWidth, std::max(kStatePicture, words) + kSpaceTight};
 }
 
 }  // namespace tidemark::ui

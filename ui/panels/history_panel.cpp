@@ -18,7 +18,6 @@
 namespace tidemark::ui {
 namespace {
 
-const QString kNothing = QStringLiteral("–");
 constexpr int kListHeight = 160;  // at least
 
 }  // namespace

@@ -18,8 +18,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kFar = 1000.0;  // windows may lie far from what an image holds
-constexpr int kRows = 3;         // of the list
+constexpr double kFarFromImage = 1000.0;  // windows may lie far from what an image holds
+constexpr int kRows = 3;                  // of the list
 
 }  // namespace
 
@@ -181,10 +181,10 @@ void ImageControls::show_chosen() {
       number->set_decimals(decimals);
       number->set_unit(value_unit(*ranged_->volume));
     }
-    width_->set_range(std::max(smallest, span / 500.0), 1.5 * span, smallest, kFar * span,
+    width_->set_range(std::max(smallest, span / 500.0), 1.5 * span, smallest, kFarFromImage * span,
                       SliderNumber::Scale::logarithmic);
-    level_->set_range(low, high, static_cast<double>(low) - kFar * span,
-                      static_cast<double>(high) + kFar * span);
+    level_->set_range(low, high, static_cast<double>(low) - kFarFromImage * span,
+                      static_cast<double>(high) + kFarFromImage * span);
   }
   place_->setText(engine::is_placed(*image->image, proxy()->study())
                       ? image->image->to_case != glm::dmat4(1.0)

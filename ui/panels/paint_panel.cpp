@@ -16,8 +16,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kSmallest = 0.5;  // mm
-constexpr double kLargest = 100.0;
+constexpr double kSmallestMm = 0.5;  // mm
+constexpr double kLargestMm = 100.0;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ PaintPanel::PaintPanel(QWidget* parent) : Panel(tr("Open a study to paint in it.
   radius_ = form.slider(tr("Radius"), tr("Of the sphere that is painted or erased. In a view: Shift and the "
                                          "wheel."));
   radius_->set_decimals(1);
-  radius_->set_range(kSmallest, kLargest, SliderNumber::Scale::logarithmic);
+  radius_->set_range(kSmallestMm, kLargestMm, SliderNumber::Scale::logarithmic);
   radius_->set_unit(tr("mm"));
   connect(radius_, &SliderNumber::edited, this, [this](double value) {
     change_display([=](engine::DisplaySettings& settings) { settings.brush_mm = value; });

@@ -1,21 +1,17 @@
 #include "ui/panels/prediction_text.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
 
 using document::Prediction;
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("Prediction", text);
-}
 
 QString length_text(double mm) {
   return number_text(mm, 2, tr("mm"));

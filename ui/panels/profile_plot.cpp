@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPhiHeight = 84.0;
 constexpr double kValueHeight = 64.0;
-constexpr double kTickPixels = 24.0;
+constexpr double kProfileTickPixels = 24.0;
 constexpr double kAlongPixels = 52.0;
 constexpr double kRoom = 0.08;  // above and below curves, of their extent
 
@@ -153,7 +153,7 @@ void ProfilePlot::paint_curve(QPainter& painter, const Pane& pane,
 void ProfilePlot::paint_ticks(QPainter& painter, const Pane& pane, double mm_per_unit) const {
   painter.setPen(palette().color(QPalette::WindowText));
   const double line = fontMetrics().height();
-  for (const double tick : ticks(pane.up, kTickPixels)) {
+  for (const double tick : ticks(pane.up, kProfileTickPixels)) {
     const double y = pane.up.pixel(tick);
     const QRectF left(0.0, y - 0.5 * line, pane.area.left() - kSpaceTight, line);
     painter.drawText(left, Qt::AlignRight | Qt::AlignVCenter, general_text(tick, 4));

@@ -8,8 +8,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kLeast = 0.2;  // mm
-constexpr double kMost = 30.0;
+constexpr double kLeastRefined = 0.2;  // mm
+constexpr double kMostRefined = 30.0;
 constexpr double kUsual = 3.0;
 
 }  // namespace
@@ -30,7 +30,7 @@ SliderNumber* RefineChoice::add_number(Form& form) {
   SliderNumber* number = form.slider(
       tr("Stay within"), tr("How far a refined mask's surface may move from where it began, to both sides."));
   number->set_decimals(1);
-  number->set_range(kLeast, kMost, SliderNumber::Scale::logarithmic);
+  number->set_range(kLeastRefined, kMostRefined, SliderNumber::Scale::logarithmic);
   number->set_unit(tr("mm"));
   number->set_value(kUsual);
   return number;

@@ -20,8 +20,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kPicture = 200;  // logical pixels, wide and high
-constexpr int kSteps = 1000;
+constexpr int kPreview = 200;  // logical pixels, wide and high
+constexpr int kProgressSteps = 1000;
 
 // The image where a transform puts it.
 engine::ShownImage moved(engine::ShownImage shown, const glm::dmat4& to_case) {
@@ -41,7 +41,7 @@ class RegistrationPicture : public QWidget {
     auto study = std::make_shared<document::CaseImage>();
     study->volume = proxy.study().volume;
     study_ = {study, true, engine::ImageColours::grey, 1.0, proxy.display().settings().window, false};
-    setFixedSize(3 * kPicture + 2 * kSpaceTight, kPicture);
+    setFixedSize(3 * kPreview + 2 * kSpaceTight, kPreview);
   }
   // Calls `when_seen` once all three slices can be seen with the image.
   void set_image(engine::ShownImage image, const std::function<void()>& when_seen = {}) {
@@ -56,7 +56,7 @@ class RegistrationPicture : public QWidget {
       renderer::SliceView view;
       view.orientation = kPlanes[plane];
       view.position_mm = cursor_mm_;
-      constexpr QSize kSize(kPicture, kPicture);
+      constexpr QSize kSize(kPreview, kPreview);
       const SliceScreen screen(view, QSizeF(kSize), study_.image->volume->geometry);
       overlays_[plane].ask({study_, image}, view, screen, kSize);
     }
@@ -68,8 +68,8 @@ class RegistrationPicture : public QWidget {
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     int left = 0;
     for (const ImageOverlay& overlay : overlays_) {
-      const QRect where(left, 0, kPicture, kPicture);
-      left += kPicture + kSpaceTight;
+      const QRect where(left, 0, kPreview, kPreview);
+      left += kPreview + kSpaceTight;
       painter.fillRect(where, Qt::black);
       if (const auto& drawn = overlay.newest()) painter.drawImage(where, drawn->picture);
     }
@@ -98,13 +98,13 @@ RegistrationDialog::RegistrationDialog(engine::CaseProxy& proxy, engine::ShownIm
   before_->set_image(image_);
   after_->hide();
   accept_->setEnabled(false);
-  progress_->setRange(0, kSteps);
+  progress_->setRange(0, kProgressSteps);
   progress_->setAccessibleName(tr("Progress of the registration"));
   text_->setMinimumHeight(2 * fontMetrics().lineSpacing());
   text_->setText(tr("Looking for the turn and shift at which the images tell most of each other."));
   connect(accept_, &QPushButton::clicked, this, &RegistrationDialog::take);
   connect(&job_, &engine::RegistrationJob::progressed, this, [this](double fraction, const QString&) {
-    progress_->setValue(static_cast<int>(std::max(fraction, 0.0) * kSteps));
+    progress_->setValue(static_cast<int>(std::max(fraction, 0.0) * kProgressSteps));
   });
   connect(&job_, &engine::RegistrationJob::registered, this, &RegistrationDialog::show_found);
   connect(&job_, &engine::RegistrationJob::failed, this, [this](const QString& message) {

@@ -10,7 +10,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kMost = 5.0;  // mm
+constexpr double kMostSmoothing = 5.0;  // mm
 constexpr int kDecimals = 2;
 
 }  // namespace
@@ -23,7 +23,7 @@ SmoothingControls::SmoothingControls(QWidget* parent) : CaseWidget(parent) {
                        tr("Standard deviation of the Gaussian with which the level set's view "
                           "of the study is smoothed; 0: not at all. Pictures stay as they are."));
   sigma_->set_decimals(kDecimals);
-  sigma_->set_range(0.0, kMost);
+  sigma_->set_range(0.0, kMostSmoothing);
   sigma_->set_step(0.1);
   sigma_->set_unit(tr("mm"));
   connect(sigma_, &SliderNumber::edited, this, &SmoothingControls::show_button);

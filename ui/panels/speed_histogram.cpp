@@ -13,7 +13,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr std::size_t kBars = 40;
+constexpr std::size_t kHistogramBars = 40;
 constexpr double kDoubt = 0.5;  // |D| below which p is between a quarter and three quarters
 
 // The slice of the grid that lies most across the patient, at the crosshair.
@@ -51,13 +51,13 @@ void SpeedHistogram::refresh() {
 
 void SpeedHistogram::count() {
   const auto& values = *sampler_->answer();
-  bars_.assign(kBars, 0.0);
+  bars_.assign(kHistogramBars, 0.0);
   double growing = 0.0;
   double doubtful = 0.0;
   for (const double speed : values) {
     const double p = 0.5 * (speed + 1.0);
-    const auto bar = static_cast<std::int64_t>(std::floor(p * static_cast<double>(kBars)));
-    bars_[static_cast<std::size_t>(std::clamp<std::int64_t>(bar, 0, kBars - 1))] += 1.0;
+    const auto bar = static_cast<std::int64_t>(std::floor(p * static_cast<double>(kHistogramBars)));
+    bars_[static_cast<std::size_t>(std::clamp<std::int64_t>(bar, 0, kHistogramBars - 1))] += 1.0;
     growing += speed > 0.0 ? 1.0 : 0.0;
     doubtful += std::abs(speed) < kDoubt ? 1.0 : 0.0;
   }
@@ -91,14 +91,14 @@ void SpeedHistogram::paintEvent(QPaintEvent* /*event*/) {
                        .arg(number_text(100.0 * growing_, 1), number_text(100.0 * doubtful_, 1)));
   const double most = std::log1p(*std::ranges::max_element(bars_));
   if (most <= 0.0) return;
-  const double width = area.width() / static_cast<double>(kBars);
+  const double width = area.width() / static_cast<double>(kHistogramBars);
   painter.setPen(Qt::NoPen);
   // As in the speed map, but for a dark blue that would be lost on a dark panel.
   const QColor shrinking = is_dark(palette()) ? QColor(90, 170, 255) : QColor(33, 92, 171);
-  for (std::size_t bar = 0; bar < kBars; ++bar) {
-    const QColor colour = 2 * bar < kBars ? shrinking : QColor(204, 102, 13);
+  for (std::size_t bar = 0; bar < kHistogramBars; ++bar) {
+    const QColor colour = 2 * bar < kHistogramBars ? shrinking : QColor(204, 102, 13);
     const double high = area.height() * std::log1p(bars_[bar]) / most;
-    painter.setBrush(QBrush(colour, 2 * bar < kBars ? Qt::Dense4Pattern : Qt::SolidPattern));
+    painter.setBrush(QBrush(colour, 2 * bar < kHistogramBars ? Qt::Dense4Pattern : Qt::SolidPattern));
     painter.drawRect(QRectF(area.left() + static_cast<double>(bar) * width, area.bottom() - high,
                             std::max(1.0, width - 1.0), high));
   }

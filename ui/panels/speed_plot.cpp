@@ -14,20 +14,21 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr std::size_t kBars = 64;  // few enough that whole numbers leave no gaps between them
-constexpr double kHandle = 5.0;    // radius
-constexpr double kGrab = 11.0;     // how near a press must be
-constexpr double kStep = 0.005;    // of the shown range, for a key
+constexpr std::size_t kPlotBars = 64;  // few enough that whole numbers leave no gaps between them
+constexpr double kHandle = 5.0;        // radius
+constexpr double kGrab = 11.0;         // how near a press must be
+constexpr double kStep = 0.005;        // of the shown range, for a key
 
 // Heights of the histogram's bars. A few values (air, padding) are so frequent that the rest would not show:
 // bars are square roots of counts, and one in twenty is cut off.
 std::vector<double> bars_of(const engine::SourceSummary& summary) {
-  std::vector<double> bars(kBars, 0.0);
+  std::vector<double> bars(kPlotBars, 0.0);
   for (std::size_t index = 0; index < summary.value_gradient.size(); ++index) {
     const std::size_t bin = index % engine::SourceSummary::kBins;
     // The outermost hold all that lies beyond them.
     if (bin == 0 || bin == engine::SourceSummary::kBins - 1) continue;
-    bars[bin * kBars / engine::SourceSummary::kBins] += static_cast<double>(summary.value_gradient[index]);
+    bars[bin * kPlotBars / engine::SourceSummary::kBins] +=
+        static_cast<double>(summary.value_gradient[index]);
   }
   for (double& bar : bars) bar = std::sqrt(bar);
   std::vector<double> sorted;

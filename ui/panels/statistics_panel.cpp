@@ -19,8 +19,6 @@
 namespace tidemark::ui {
 namespace {
 
-const QString kNothing = QStringLiteral("–");
-
 QTableWidget* make_table(const QStringList& headings, const QString& name) {
   auto* table = new QTableWidget(0, static_cast<int>(headings.size()));
   table->setHorizontalHeaderLabels(headings);

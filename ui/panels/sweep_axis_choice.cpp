@@ -17,8 +17,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kValues = 5;      // suggested
-constexpr double kFar = 100.0;  // what a slider would not go through evenly
+constexpr int kValues = 5;           // suggested
+constexpr double kFarApart = 100.0;  // what a slider would not go through evenly
 
 NumberBox* make_number(const QString& name, const QString& tip) {
   auto* box = new NumberBox;
@@ -55,7 +55,7 @@ Span around(const std::string& parameter, const solver::Parameters& parameters,
   }
   const solver::SpeedParameter* number = number_of(parameter);
   if (!number) return {0.0, 1.0};
-  if (number->high - number->low <= kFar) return {number->low, number->high};
+  if (number->high - number->low <= kFarApart) return {number->low, number->high};
   const double value = document::parameter_of(parameter, parameters, setting).value_or(number->initial);
   return {std::max(number->low, 0.5 * value), std::min(number->high, std::max(2.0 * value, 1.0))};
 }

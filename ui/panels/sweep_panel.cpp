@@ -18,7 +18,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kSteps = 1000;  // of the progress bar
+constexpr int kSweepBarSteps = 1000;  // of the progress bar
 
 }  // namespace
 
@@ -60,7 +60,7 @@ QWidget* SweepPanel::make_run() {
   progress_ = new QProgressBar;
   progress_->setTextVisible(false);
   progress_->setAccessibleName(tr("Progress"));
-  progress_->setRange(0, kSteps);
+  progress_->setRange(0, kSweepBarSteps);
   form.wide(progress_);
   problem_ = form.note({});
   say({});
@@ -114,7 +114,7 @@ void SweepPanel::attach() {
     connect(shown_, &engine::CaseSweep::changed, this, &SweepPanel::show_sweep);
     connect(shown_, &engine::CaseSweep::failed, this, &SweepPanel::say);
     connect(shown_, &engine::CaseSweep::progressed, this, [this](double fraction, const QString&) {
-      progress_->setValue(static_cast<int>(std::lround(fraction * kSteps)));
+      progress_->setValue(static_cast<int>(std::lround(fraction * kSweepBarSteps)));
     });
     suggest_axes();
   }

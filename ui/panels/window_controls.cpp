@@ -12,7 +12,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kFar =
+constexpr double kFarFromValues =
     1000.0;  // windows may lie far from what a study holds: a lung's for a phantom of water
 
 }  // namespace
@@ -74,9 +74,10 @@ void WindowControls::attach() {
     number->set_decimals(decimals);
     number->set_unit(unit);
   }
-  width_->set_range(std::max(smallest, span / 500.0), 1.5 * span, smallest, kFar * all,
+  width_->set_range(std::max(smallest, span / 500.0), 1.5 * span, smallest, kFarFromValues * all,
                     SliderNumber::Scale::logarithmic);
-  level_->set_range(summary.low, summary.high, summary.lowest - kFar * all, summary.highest + kFar * all);
+  level_->set_range(summary.low, summary.high, summary.lowest - kFarFromValues * all,
+                    summary.highest + kFarFromValues * all);
 }
 
 void WindowControls::refresh() {

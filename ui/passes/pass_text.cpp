@@ -1,19 +1,15 @@
 #include "ui/passes/pass_text.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 
 #include "solver/executor.h"
 #include "solver/paging/page_neighbours.h"
 #include "ui/passes/message_bits.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("PassText", text);
-}
 
 // "+x and −z"
 QString list_of_faces(std::uint8_t faces) {

@@ -15,7 +15,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kNothing = 1e-6;  // what is smaller is rounding
+constexpr double kRounding = 1e-6;  // what is smaller is rounding
 
 QFont small(QFont font) {
   font.setPointSizeF(0.85 * font.pointSizeF());
@@ -29,7 +29,7 @@ double round_range(const std::vector<float>& values) {
   for (const float value : values) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(double(value)));
   }
-  if (largest <= kNothing) return kNothing;
+  if (largest <= kRounding) return kRounding;
   const double power = std::pow(10.0, std::floor(std::log10(largest)));
   for (const double digit : {1.0, 2.0, 5.0}) {
     if (largest <= digit * power * (1.0 + 1e-6)) return digit * power;
@@ -78,8 +78,8 @@ QColor TexelPicture::colour_of(float value) const {
 
 QString TexelPicture::range_text() const {
   if (content_.values.empty() || content_.is_of_substreams || !content_.names_range) return {};
-  return content_.range > kNothing ? QStringLiteral("±") + short_text(content_.range, 2)
-                                   : QStringLiteral("0");
+  return content_.range > kRounding ? QStringLiteral("±") + short_text(content_.range, 2)
+                                    : QStringLiteral("0");
 }
 
 void TexelPicture::paintEvent(QPaintEvent* /*event*/) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/transfer/panel_scroll.h"
+#include "ui/widgets/wheel_guard.h"
 
 namespace tidemark::ui {
 namespace {
@@ -20,7 +20,7 @@ NumberBox* number_box(QWidget* parent) {
   // Its width is the layout's: nine digits would make every panel wide.
   box->setMinimumWidth(64);
   box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  guard_from_wheel(box);
+  guard_wheel(box);
   return box;
 }
 
@@ -31,7 +31,7 @@ FactorEditor::FactorEditor(QWidget* parent)
   kind_->addItem(tr("All"), static_cast<int>(Kind::everything));
   kind_->addItem(tr("Gaussian"), static_cast<int>(Kind::gaussian));
   kind_->addItem(tr("Ramp"), static_cast<int>(Kind::ramp));
-  guard_from_wheel(kind_);
+  guard_wheel(kind_);
   // The numbers below the kind, and only where they matter: a panel has no room for both in a row.
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);

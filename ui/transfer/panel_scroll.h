@@ -18,8 +18,4 @@ class PanelScroll : public QScrollArea {
   bool eventFilter(QObject* watched, QEvent* event) override;
 };
 
-// A wheel that scrolls the panel must not change the number or the choice that passes below the pointer: it
-// acts on the control only when that has the focus.
-void guard_from_wheel(QWidget* control);
-
 }  // namespace tidemark::ui

@@ -5,8 +5,8 @@
 #include <QStylePainter>
 #include <algorithm>
 
-#include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/preset_thumbnail.h"
+#include "ui/widgets/wheel_guard.h"
 
 namespace tidemark::ui {
 
@@ -29,7 +29,7 @@ PresetPicker::PresetPicker(QWidget* parent) : QComboBox(parent) {
   list->setSpacing(2);
   list->setIconSize(kThumbnailSize);
   setView(list);
-  guard_from_wheel(this);
+  guard_wheel(this);
   setCurrentIndex(-1);
   draw_pictures();
   connect(this, &QComboBox::activated, this,

@@ -4,8 +4,8 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 
-#include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/primitive_list.h"
+#include "ui/widgets/wheel_guard.h"
 
 namespace tidemark::ui {
 
@@ -37,7 +37,7 @@ PrimitiveForm::PrimitiveForm(PrimitiveKind kind, int axes, QWidget* parent)
   opacity_->setRange(0.0, source ? 100.0 : 1.0);
   opacity_->setDecimals(4);
   opacity_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  guard_from_wheel(opacity_);
+  guard_wheel(opacity_);
   opacity_->setMinimumWidth(64);
   opacity_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   colour_->setToolTip(tr("The colour that the primitive gives"));

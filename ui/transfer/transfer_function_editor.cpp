@@ -12,6 +12,7 @@
 #include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/preset_picker.h"
 #include "ui/transfer/primitive_page.h"
+#include "ui/widgets/wheel_guard.h"
 
 namespace tidemark::ui {
 namespace {
@@ -87,7 +88,7 @@ QWidget* TransferFunctionEditor::make_volume_tab() {
   region_->addItem(tr("Everywhere, the inside tinted"), static_cast<int>(renderer::Region::tinted));
   region_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);  // its texts are long
   region_->setMinimumContentsLength(8);
-  guard_from_wheel(region_);
+  guard_wheel(region_);
   region_->setAccessibleName(tr("Level set as region of interest"));
   region_->setToolTip(tr("Where the volume shows: the level set is a region of interest"));
   auto* region_name = new QLabel(tr("Level set as region of interest"), tab);

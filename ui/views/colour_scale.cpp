@@ -11,10 +11,10 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kLongest = 170.0;
+constexpr double kLongestScale = 170.0;
 constexpr double kHeight = 8.0;
 constexpr double kLine = 18.0;
-constexpr double kMargin = 8.0;
+constexpr double kScaleMargin = 8.0;
 constexpr double kScaleBar = 34.0;  // which lies below
 const QList<QColor> kDiverging{QColor(33, 92, 171), QColor(242, 242, 242), QColor(204, 102, 13)};
 
@@ -66,9 +66,9 @@ ColourScale scale_of_agreement(double runs) {
 void paint_colour_scale(QPainter& painter, QSizeF size, const ColourScale& scale) {
   const QFontMetricsF metrics(painter.font());
   const double wide = metrics.horizontalAdvance(scale.low + scale.high) + 20.0;
-  const double length = std::min(std::max(kLongest, wide), size.width() - 2.0 * kMargin);
-  const double left = size.width() - kMargin - length;
-  const double below = size.height() - kMargin - kScaleBar;
+  const double length = std::min(std::max(kLongestScale, wide), size.width() - 2.0 * kScaleMargin);
+  const double left = size.width() - kScaleMargin - length;
+  const double below = size.height() - kScaleMargin - kScaleBar;
   const QRectF bar(left, below - kLine - kHeight, length, kHeight);
   QLinearGradient gradient(bar.topLeft(), bar.topRight());
   for (qsizetype i = 0; i < scale.colours.size(); ++i)

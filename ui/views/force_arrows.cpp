@@ -1,6 +1,5 @@
 #include "ui/views/force_arrows.h"
 
-#include <QCoreApplication>
 #include <QFontMetricsF>
 #include <QLineF>
 #include <QList>
@@ -10,19 +9,16 @@
 #include "ui/look/term_colours.h"
 #include "ui/views/overlay.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
 
-constexpr double kLongest = 34.0;  // logical pixels
-constexpr double kShortest = 1.5;  // below it an arrow is not drawn
-constexpr double kBeside = 3.5;    // between arrows of one place
-constexpr double kHead = 4.5;
+constexpr double kLongestArrow = 34.0;  // logical pixels
+constexpr double kShortest = 1.5;       // below it an arrow is not drawn
+constexpr double kBeside = 3.5;         // between arrows of one place
+constexpr double kArrowHead = 4.5;
 const QColor kSumColour(250, 250, 250);
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("ForceArrows", text);
-}
 
 struct Kind {
   QString name;
@@ -72,7 +68,7 @@ void add_arrow(QList<QLineF>& lines, QPointF from, QPointF way) {
   const QPointF along = way / length;
   const QPointF across(-along.y(), along.x());
   const QPointF tip = from + way;
-  const double head = std::min(kHead, 0.6 * length);
+  const double head = std::min(kArrowHead, 0.6 * length);
   lines << QLineF(from, tip) << QLineF(tip, tip - along * head + across * (0.6 * head))
         << QLineF(tip, tip - along * head - across * (0.6 * head));
 }
@@ -131,7 +127,7 @@ void paint_forces(QPainter& painter, const std::vector<engine::PlaceForces>& for
     const QPointF across(-normal.y() / flat, normal.x() / flat);
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       const double push = std::clamp(drawn[i].push(at.pushes) / longest, -1.5, 1.5);
-      add_arrow(lines[i], position + across * (drawn[i].beside * kBeside), normal * (push * kLongest));
+      add_arrow(lines[i], position + across * (drawn[i].beside * kBeside), normal * (push * kLongestArrow));
     }
   }
   for (std::size_t i = 0; i < drawn.size(); ++i)

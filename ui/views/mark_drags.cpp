@@ -1,21 +1,17 @@
 #include "ui/views/mark_drags.h"
 
-#include <QCoreApplication>
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <iterator>
 
 #include "solver/speed/speed_registry.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr const char* kExamples = "examples";  // in the registry of speed functions
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("MarkDrag", text);
-}
 
 engine::Mark mark_of(const Pointer& pressed) {
   if (pressed.modifiers.testFlag(Qt::ControlModifier)) return engine::Mark::none;

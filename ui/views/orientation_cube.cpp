@@ -8,8 +8,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kEdge = 34.0;    // logical pixels
-constexpr double kMargin = 12.0;  // to the view's border
+constexpr double kEdge = 34.0;        // logical pixels
+constexpr double kCubeMargin = 12.0;  // to the view's border
 constexpr double kLeastView = 180.0;
 
 // A side of the patient (LPS), and which way its letter stands.
@@ -18,9 +18,9 @@ struct Side {
   glm::dvec3 normal;
   glm::dvec3 up;
 };
-const glm::dvec3 kHead(0.0, 0.0, 1.0);
-const Side kSides[] = {{'L', {1.0, 0.0, 0.0}, kHead},           {'R', {-1.0, 0.0, 0.0}, kHead},
-                       {'P', {0.0, 1.0, 0.0}, kHead},           {'A', {0.0, -1.0, 0.0}, kHead},
+const glm::dvec3 kTowardsHead(0.0, 0.0, 1.0);
+const Side kSides[] = {{'L', {1.0, 0.0, 0.0}, kTowardsHead},    {'R', {-1.0, 0.0, 0.0}, kTowardsHead},
+                       {'P', {0.0, 1.0, 0.0}, kTowardsHead},    {'A', {0.0, -1.0, 0.0}, kTowardsHead},
                        {'H', {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}}, {'F', {0.0, 0.0, -1.0}, {0.0, -1.0, 0.0}}};
 
 QPainterPath letter_on(const CubeFace& face, const QFont& font) {
@@ -61,7 +61,7 @@ std::vector<CubeFace> cube_faces(const renderer::Camera& camera, QPointF centre,
 void paint_orientation_cube(QPainter& painter, QSizeF view, const renderer::Camera& camera) {
   if (std::min(view.width(), view.height()) < kLeastView) return;
   const double reach = 0.5 * std::sqrt(3.0) * kEdge;
-  const QPointF centre(kMargin + reach, view.height() - kMargin - reach);
+  const QPointF centre(kCubeMargin + reach, view.height() - kCubeMargin - reach);
   const QColor rim(16, 18, 22);
   for (const CubeFace& face : cube_faces(camera, centre, kEdge)) {
     const int grey = static_cast<int>(std::lround(120.0 + 110.0 * face.facing));

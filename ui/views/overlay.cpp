@@ -13,7 +13,7 @@ namespace {
 const QColor kRim(0, 0, 0, 170);
 const QColor kVeil(0, 0, 0, 155);  // over white, the text still has a contrast of 4.5
 constexpr double kVeilMargin = 4.0;
-constexpr double kMargin = 8.0;
+constexpr double kTextMargin = 8.0;
 
 QString number(double value, int digits) {
   return QString::number(value, 'f', digits);
@@ -60,7 +60,7 @@ void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dv
   const auto letters = [is_known](glm::dvec3 direction) {
     return is_known ? QString::fromStdString(renderer::orientation_letters(direction)) : QStringLiteral("?");
   };
-  const QRectF all(QPointF(kMargin, kMargin), size - QSizeF(2 * kMargin, 2 * kMargin));
+  const QRectF all(QPointF(kTextMargin, kTextMargin), size - QSizeF(2 * kTextMargin, 2 * kTextMargin));
   paint_text(painter, all, Qt::AlignRight | Qt::AlignVCenter, letters(right));
   paint_text(painter, all, Qt::AlignLeft | Qt::AlignVCenter, letters(-right));
   paint_text(painter, all, Qt::AlignTop | Qt::AlignHCenter, letters(up));
@@ -71,8 +71,8 @@ void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel) {
   const double length_mm = renderer::scale_bar_mm(0.2 * size.width() * mm_per_pixel);
   if (length_mm <= 0.0) return;
   const double length = length_mm / mm_per_pixel;
-  const double y = size.height() - kMargin - 3.0;
-  const double x = size.width() - kMargin - length;
+  const double y = size.height() - kTextMargin - 3.0;
+  const double x = size.width() - kTextMargin - length;
   paint_line(painter, QPolygonF({QPointF(x, y - 4), QPointF(x, y), QPointF(x + length, y),
                                  QPointF(x + length, y - 4)}));
   const QString text = length_mm >= 10.0 ? QCoreApplication::translate("View", "%1 cm").arg(length_mm / 10.0)
@@ -147,13 +147,13 @@ void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QS
   constexpr double kMiddle = 24.0;  // room for the letter of the patient's side
   // At the bottom there is only the scale bar to the right.
   const bool shares = corner.testFlag(Qt::AlignTop);
-  const QSizeF room(shares ? (size.width() - kMiddle) / 2.0 - kMargin : size.width() - 2.0 * kMargin,
-                    size.height() - 2.0 * kMargin);
+  const QSizeF room(shares ? (size.width() - kMiddle) / 2.0 - kTextMargin : size.width() - 2.0 * kTextMargin,
+                    size.height() - 2.0 * kTextMargin);
   const QFontMetricsF metrics(painter.font());
   QStringList fitting;
   for (const QString& line : lines) fitting << metrics.elidedText(line, Qt::ElideRight, room.width());
-  const double x = corner.testFlag(Qt::AlignRight) ? size.width() - kMargin - room.width() : kMargin;
-  paint_text(painter, QRectF(QPointF(x, kMargin), room), static_cast<int>(corner | Qt::AlignAbsolute),
+  const double x = corner.testFlag(Qt::AlignRight) ? size.width() - kTextMargin - room.width() : kTextMargin;
+  paint_text(painter, QRectF(QPointF(x, kTextMargin), room), static_cast<int>(corner | Qt::AlignAbsolute),
              fitting.join('\n'));
 }
 

@@ -1,17 +1,13 @@
 #include "ui/views/probe_drags.h"
 
-#include <QCoreApplication>
 #include <algorithm>
 
 #include "ui/views/overlay.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
-
-QString tr(const char* text) {
-  return QCoreApplication::translate("ProbeDrag", text);
-}
 
 // A voxel beside the mouse counts too: a drag over a thin structure then has enough of them.
 double reach_mm(const Geometry& geometry) {

@@ -6,6 +6,9 @@
 
 namespace tidemark::ui {
 
+// Where there is no number.
+inline const QString kNothing = QStringLiteral("–");
+
 // Digits behind the point, so that a span has about a thousand steps: 0 for HU, 3 for shares of 1.
 int decimals_for(double span);
 double rounded(double value, int decimals);  // never -0

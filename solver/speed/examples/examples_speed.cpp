@@ -55,11 +55,6 @@ Result<Samples> samples_of(const Features& features, const Strokes& strokes, con
   return samples;
 }
 
-VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
-  const Index3 first = glm::max(a.first, b.first);
-  return {first, glm::max(glm::min(a.first + a.size, b.first + b.size) - first, Index3(0))};
-}
-
 // The values of a box that lies within another, x fastest.
 template <class Value>
 void copy_box(const double* values, const VoxelBox& box, const VoxelBox& into, Value* to) {

@@ -5,14 +5,15 @@
 namespace tidemark::solver {
 namespace {
 
-// Where the voxels of a box lie between nodes, along one axis.
-struct Between {
+// Where the voxels of a box lie between_nodes nodes, along one axis.
+struct BetweenNodes {
   std::vector<std::int64_t> node;  // the one before, counted from the block's first
   std::vector<float> weight;       // of the one after
 };
 
-Between between(std::int64_t first, std::int64_t count, std::int64_t step, std::int64_t first_node) {
-  Between result;
+BetweenNodes between_nodes(std::int64_t first, std::int64_t count, std::int64_t step,
+                           std::int64_t first_node) {
+  BetweenNodes result;
   for (std::int64_t i = first; i < first + count; ++i) {
     result.node.push_back(i / step - first_node);
     result.weight.push_back(static_cast<float>(i % step) / static_cast<float>(step));
@@ -21,8 +22,8 @@ Between between(std::int64_t first, std::int64_t count, std::int64_t step, std::
 }
 
 // Trilinear, for one feature: nodes' values to those of the box's voxels.
-void interpolate(const float* nodes, Index3 size, const std::array<Between, 3>& at, std::vector<float>& row,
-                 float* voxels) {
+void interpolate(const float* nodes, Index3 size, const std::array<BetweenNodes, 3>& at,
+                 std::vector<float>& row, float* voxels) {
   row.resize(static_cast<std::size_t>(size.x));
   for (std::size_t z = 0; z < at[2].node.size(); ++z) {
     for (std::size_t y = 0; y < at[1].node.size(); ++y) {
@@ -50,7 +51,7 @@ void evaluate_scale(const Volume& volume, const ScaleSpace& space, int scale, co
                     float* features) {
   const Index3 step = space.step(scale);
   VoxelBox nodes;
-  std::array<Between, 3> at;
+  std::array<BetweenNodes, 3> at;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int64_t first = box.first[axis] / step[axis];
     // A voxel on a node is that node: where there are no others, one node more is not read.
@@ -58,7 +59,7 @@ void evaluate_scale(const Volume& volume, const ScaleSpace& space, int scale, co
     nodes.first[axis] = first;
     nodes.size[axis] = last - first + 1;
     at[static_cast<std::size_t>(axis)] =
-        between(box.first[axis], box.size[axis], step[axis], first - kFeatureReach);
+        between_nodes(box.first[axis], box.size[axis], step[axis], first - kFeatureReach);
   }
   const Moments moments = space.moments(volume, scale, grown(nodes, Index3(kFeatureReach)));
   std::vector<float> of_nodes;

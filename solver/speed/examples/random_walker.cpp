@@ -3,24 +3,22 @@
 #include <algorithm>
 #include <array>
 
+#include "solver/speed/examples/index.h"
+
 namespace tidemark::solver {
 namespace {
 
 constexpr std::int64_t kCoarsestCells = 2000;
 constexpr float kOverrelaxation = 1.6F;
 
-std::size_t at(std::int64_t index) {
-  return static_cast<std::size_t>(index);
-}
-
 // Trilinear, from the centres of coarse cells to those of fine ones along each axis.
-struct Between {
+struct BetweenCells {
   std::vector<std::int64_t> cell;  // the one before
   std::vector<float> weight;       // of the one after
 };
 // Of `count` points from `first`, `step` of which make a cell of `cells`.
-Between between(std::int64_t first, std::int64_t count, std::int64_t step, std::int64_t cells) {
-  Between result;
+BetweenCells between_cells(std::int64_t first, std::int64_t count, std::int64_t step, std::int64_t cells) {
+  BetweenCells result;
   for (std::int64_t i = first; i < first + count; ++i) {
     const double place = std::clamp((static_cast<double>(i) + 0.5) / static_cast<double>(step) - 0.5, 0.0,
                                     static_cast<double>(cells - 1));
@@ -32,7 +30,7 @@ Between between(std::int64_t first, std::int64_t count, std::int64_t step, std::
 }
 
 template <class Value>
-void interpolate(const std::vector<float>& cells, Index3 size, const std::array<Between, 3>& to,
+void interpolate(const std::vector<float>& cells, Index3 size, const std::array<BetweenCells, 3>& to,
                  Value* values) {
   const std::int64_t right = size.x > 1 ? 1 : 0;
   const std::int64_t down = size.y > 1 ? size.x : 0;
@@ -97,10 +95,10 @@ std::vector<float> solved(const WalkerNetwork& network, int sweeps, ThreadPool& 
   if (!coarsest) {
     const WalkerNetwork coarse = coarser(network);
     const std::vector<float> start = solved(coarse, sweeps, threads, progress);
-    std::array<Between, 3> to;
+    std::array<BetweenCells, 3> to;
     for (int axis = 0; axis < 3; ++axis) {
       const std::int64_t factor = coarse.size[axis] < network.size[axis] ? 2 : 1;
-      to[at(axis)] = between(0, network.size[axis], factor, coarse.size[axis]);
+      to[at(axis)] = between_cells(0, network.size[axis], factor, coarse.size[axis]);
     }
     interpolate(start, coarse.size, to, u.data());
   }
@@ -131,10 +129,10 @@ Result<RandomWalker> RandomWalker::solve(const std::vector<std::shared_ptr<const
 }
 
 void RandomWalker::evaluate(const VoxelBox& box, double* inside) const {
-  std::array<Between, 3> to;
+  std::array<BetweenCells, 3> to;
   for (int axis = 0; axis < 3; ++axis) {
-    to[at(axis)] =
-        between(box.first[axis] - grid_.box.first[axis], box.size[axis], grid_.step[axis], grid_.size[axis]);
+    to[at(axis)] = between_cells(box.first[axis] - grid_.box.first[axis], box.size[axis], grid_.step[axis],
+                                 grid_.size[axis]);
   }
   interpolate(inside_, grid_.size, to, inside);
 }

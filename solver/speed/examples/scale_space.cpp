@@ -8,6 +8,7 @@
 
 #include "core/thread_pool.h"
 #include "core/typed_volume.h"
+#include "solver/speed/examples/index.h"
 
 namespace tidemark::solver {
 namespace {
@@ -29,10 +30,6 @@ struct Reduction {
   Index3 factor;  // from one to the other
   AxisWeights weights;
 };
-
-std::size_t at(std::int64_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 // sums[i] = the weighted sum of line(centre - reach .. centre + reach)[i]. Beyond the ends a volume goes on
 // with its last lines.

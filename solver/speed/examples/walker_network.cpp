@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "core/typed_volume.h"
+#include "solver/speed/examples/index.h"
 
 namespace tidemark::solver {
 namespace {
@@ -15,10 +16,6 @@ constexpr double kMarginShare = 0.5;
 constexpr double kLeastMargin = 16.0;
 // Keeps every cell linked, however much it differs.
 constexpr float kLeastLink = 1e-6F;
-
-std::size_t at(std::int64_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 // The mean of each cell's voxels; not of all when it is cancelled.
 std::vector<float> cell_values(const Volume& image, const WalkerGrid& grid, ThreadPool& threads,
