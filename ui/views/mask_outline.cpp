@@ -37,7 +37,7 @@ struct VoxelBox {
 VoxelBox box_around(const solver::Field& phi) {
   VoxelBox box{phi.geometry.size, Index3(-1)};
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.table[static_cast<std::size_t>(page)] == solver::Field::kOutside) continue;
+    if (phi.pages.kind(page) == solver::Field::Kind::outside) continue;
     const Index3 first = phi.layout.first_voxel(page);
     box.low = glm::min(box.low, first);
     box.high = glm::max(box.high, first + phi.layout.valid_shape(page) - Index3(1));
