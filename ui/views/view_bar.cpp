@@ -145,8 +145,8 @@ int ViewBar::room_for(const QList<QWidget*>& parts) const {
   return room;
 }
 
-// T and epsilon are the tent's. The title is cut before a button goes, but makes room neither for numbers nor
-// for the evolution's.
+// T and epsilon are the tent's. The title is cut before a button goes; the evolution's leave it its words, and
+// numbers its beginning.
 void ViewBar::show_what_fits() {
   QList<QWidget*> shown = lasting_;
   bool fits = true;
@@ -159,7 +159,7 @@ void ViewBar::show_what_fits() {
   const int title = title_->sizeHint().width();
   show(evolution_, title);
   fits = fits && is_driven_by(proxy_.drive(), "tent");
-  show(numbers_, title);
+  show(numbers_, std::min(title, kLeastWidth));
 }
 
 }  // namespace tidemark::ui
