@@ -145,8 +145,8 @@ int ViewBar::room_for(const QList<QWidget*>& parts) const {
   return room;
 }
 
-// T and epsilon are the tent's. The title is cut before a button goes; the evolution's leave it its words, and
-// numbers its beginning.
+// T and epsilon are the tent's. The title is cut before a button goes; the evolution's leave it its words,
+// and numbers its beginning.
 void ViewBar::show_what_fits() {
   QList<QWidget*> shown = lasting_;
   bool fits = true;

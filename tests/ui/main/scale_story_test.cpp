@@ -142,7 +142,7 @@ void ScaleStoryTest::panels_fit_into_their_column() {
     for (const QScrollArea* area : dock->findChildren<QScrollArea*>()) {
       if (!area->isVisible()) continue;
       QVERIFY2(
-          area->widget()->width() <= area->viewport()->width(),
+          Desktop::wait_for([&] { return area->widget()->width() <= area->viewport()->width(); }),
           qPrintable(
               QString("%1: %2 in %3").arg(name).arg(area->widget()->width()).arg(area->viewport()->width())));
       ++panels;
