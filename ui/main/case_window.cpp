@@ -6,6 +6,7 @@
 #include <QDockWidget>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QMenu>
 #include <QSet>
 #include <algorithm>
 #include <glm/common.hpp>

@@ -1,6 +1,7 @@
 #include "ui/main/truth_reader.h"
 
 #include <QComboBox>
+#include <QDialog>
 #include <QDialogButtonBox>
 #include <QFileInfo>
 #include <QLabel>
