@@ -1,6 +1,7 @@
 #include "ui/lessons/lesson_part_view.h"
 
 #include <QButtonGroup>
+#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
