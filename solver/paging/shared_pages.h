@@ -65,7 +65,7 @@ class SharedPages {
   }
 
  private:
-  static constexpr std::int64_t kChunk = 64;  // pages
+  static constexpr std::int64_t kChunk = 512;  // pages
   using Page = std::shared_ptr<float[]>;
   using Chunk = std::array<Page, kChunk>;
   // Stands for a page that is inside throughout; nobody reads or writes it.
