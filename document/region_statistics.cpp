@@ -49,6 +49,7 @@ void InsideStatistics::begin(const std::shared_ptr<const Volume>& volume, const 
 // With the shift of sums_.
 ValueSums InsideStatistics::sums_of(const solver::SharedPages& pages, std::int64_t page) const {
   ValueSums sums;
+  sums.shift = sums_.shift;
   if (pages.kind(page) == solver::SharedPages::Kind::outside) return sums;
   const float* const phi = pages.values(page);
   with_type(*volume_, [&](const auto& typed) {
@@ -57,10 +58,7 @@ ValueSums InsideStatistics::sums_of(const solver::SharedPages& pages, std::int64
                            for (std::int64_t i = 0; i < length; ++i) {
                              if (phi != nullptr && !(phi[index + i] > 0.0F)) continue;
                              const auto at = static_cast<std::size_t>(offset + i);
-                             const double d = static_cast<double>(typed.stored[at]) - sums_.shift;
-                             ++sums.voxels;
-                             sums.sum += d;
-                             sums.squares += d * d;
+                             sums.add_to_shift(static_cast<double>(typed.stored[at]));
                            }
                          });
   });

@@ -29,7 +29,11 @@ struct ValueSums {
   double squares = 0.0;
 
   void add(double stored) {
-    if (voxels++ == 0) shift = stored;
+    if (voxels == 0) shift = stored;
+    add_to_shift(stored);
+  }
+  void add_to_shift(double stored) {
+    ++voxels;
     const double d = stored - shift;
     sum += d;
     squares += d * d;
