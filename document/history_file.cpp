@@ -84,14 +84,14 @@ Json state_json(const SavedState& state, const Base& base, std::size_t phi) {
   return json;
 }
 
-std::string json_text(const SessionContents& contents) {
+std::string json_text(const SessionContents& contents, const std::vector<std::size_t>& phi_of) {
   const SavedHistory& history = contents.history;
   Json json{{"format", kHistoryFormat}, {"version", kVersion}, {"present", history.present}};
   const Index3 shape = history.states[history.present].phi->layout.page_shape();
   json["page_shape"] = {shape.x, shape.y, shape.z};
   Json states = Json::array();
   for (const SavedState& state : history.states)
-    states.push_back(state_json(state, base_of(contents, state), states.size()));
+    states.push_back(state_json(state, base_of(contents, state), phi_of[states.size()]));
   json["states"] = std::move(states);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -210,7 +210,7 @@ HistoryEntries history_entries(const SessionContents& contents) {
   written.curve = contents.curve;
   HistoryForFile file = for_file(contents.history);
   written.history = std::move(file.history);
-  return {json_text(written), std::move(file.phi)};
+  return {json_text(written, file.phi_of), std::move(file.phi)};
 }
 
 Status read_history(ZipReader& archive, SessionContents& contents, const std::string& file) {

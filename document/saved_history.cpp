@@ -56,23 +56,27 @@ HistoryForFile for_file(const SavedHistory& history) {
   std::vector<bool> kept(history.states.size(), false);
   SavedHistory whole = history;
   std::size_t events = 0;
-  FieldBytes room;
+  HistoryForFile file;
+  std::vector<std::size_t> numbers(history.states.size());
   for (const Visit& visit : outwards(history)) {
     SavedState& state = whole.states[visit.state];
     if (!kept[visit.from] && visit.state != visit.from) continue;
     events += state.recipe.events.size();
-    if (events > SavedHistory::kMostEvents || room.fields() == SavedHistory::kMostStates ||
-        room.bytes() > kMostPhiBytes)
+    if (events > SavedHistory::kMostEvents || file.phi.fields() == SavedHistory::kMostStates ||
+        file.phi.bytes() > kMostPhiBytes)
       break;
     if (state.phi->band != present.band) continue;
     if (!(state.phi->layout == present.layout))
       state.phi = std::make_shared<const solver::Field>(
           state.phi->repaged(present.band, present.layout.page_shape()));
-    room.add(*state.phi);
+    numbers[visit.state] = file.phi.fields();
+    file.phi.add(*state.phi);
     kept[visit.state] = true;
   }
-  HistoryForFile file{part_of(whole, kept), {}};
-  for (const SavedState& state : file.history.states) file.phi.add(*state.phi);
+  file.history = part_of(whole, kept);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (kept[i]) file.phi_of.push_back(numbers[i]);
+  }
   return file;
 }
 

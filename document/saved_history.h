@@ -47,7 +47,8 @@ struct Visit {
 // so are those with another band than that one, and what lies behind them.
 struct HistoryForFile {
   SavedHistory history;
-  FieldBytes phi;  // of its states, in their order; pages have the shape of the present one's
+  FieldBytes phi;                   // of its states; pages have the shape of the present one's
+  std::vector<std::size_t> phi_of;  // for each state, which of these it has
 };
 HistoryForFile for_file(const SavedHistory& history);
 
