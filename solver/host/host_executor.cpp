@@ -319,7 +319,10 @@ bool HostExecutor::page_view(PageView& view) const {
 Status HostExecutor::validate() const {
   TIDEMARK_TRY(pages_.validate());
   TIDEMARK_TRY(quiet_.validate());
-  return tidemark::solver::validate(pages_.copy());
+  const Result<Field> copy = snapshot();
+  TIDEMARK_TRY(copy);
+  TIDEMARK_TRY(pages_.validate(*copy));
+  return tidemark::solver::validate(*copy);
 }
 
 }  // namespace tidemark::solver

@@ -299,4 +299,15 @@ Status ResidentPages::validate() const {
   return result;
 }
 
+Status ResidentPages::validate(const Field& copy) const {
+  Status result;
+  for_each([&](PhysicalPage page) {
+    const std::int64_t virtual_page = table_.virtual_page(page);
+    const float* copied = copy.pages.values(virtual_page);
+    if (copied != nullptr && std::equal(copied, copied + kPageVoxels, phi(page))) return;
+    result = fail(ErrorKind::internal, "the copy of phi does not hold what page {} holds", virtual_page);
+  });
+  return result;
+}
+
 }  // namespace tidemark::solver

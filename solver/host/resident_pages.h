@@ -93,6 +93,8 @@ class ResidentPages {
   [[nodiscard]] std::int64_t state_bytes() const;
   // The tables, and what each page knows of its neighbours.
   [[nodiscard]] Status validate() const;
+  // Fails (ErrorKind::internal) where a copy, made now, does not hold what the resident pages hold.
+  [[nodiscard]] Status validate(const Field& copy) const;
 
  private:
   [[nodiscard]] PhysicalPage pool_capacity() const;
