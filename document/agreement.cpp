@@ -1,41 +1,28 @@
 #include "document/agreement.h"
 
-#include <bit>
 #include <glm/common.hpp>
 
 namespace tidemark::document {
-namespace {
 
-constexpr std::int64_t kBitsAtOnce = 8;  // a byte of InsideBits
-
-}  // namespace
-
-Agreement::Agreement(const std::vector<const InsideBits*>& surfaces, Index3 grid_size)
+Agreement::Agreement(const std::vector<const Region*>& surfaces, Index3 grid_size)
     : surfaces_(static_cast<int>(surfaces.size())) {
-  Index3 low = grid_size;
-  Index3 high(0);
-  for (const InsideBits* inside : surfaces) {
-    if (inside->count() == 0) continue;
+  VoxelRange all{grid_size, Index3(0)};
+  for (const Region* inside : surfaces) {
+    const VoxelRange box = inside->bounds();
+    if (box.empty()) continue;
     ++not_empty_;
-    low = glm::min(low, inside->first());
-    high = glm::max(high, inside->first() + inside->size());
+    all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
   }
-  high = glm::min(high, grid_size);
-  if (low.x >= high.x) return;
-  first_ = low;
-  size_ = high - low;
+  if (all.empty()) return;
+  first_ = all.low;
+  size_ = all.high - all.low;
   counts_.assign(static_cast<std::size_t>(size_.x * size_.y * size_.z), 0);
-  for (const InsideBits* inside : surfaces) {
-    for (std::int64_t k = 0; k < inside->size().z; ++k) {
-      for (std::int64_t j = 0; j < inside->size().y; ++j) {
-        const Index3 at = inside->first() + Index3(0, j, k) - first_;
-        std::uint8_t* counts = counts_.data() + (at.z * size_.y + at.y) * size_.x + at.x;
-        for (const std::uint8_t byte : inside->row(inside->first().y + j, inside->first().z + k)) {
-          for (unsigned bits = byte; bits != 0; bits &= bits - 1) ++counts[std::countr_zero(bits)];
-          counts += kBitsAtOnce;
-        }
-      }
-    }
+  for (const Region* inside : surfaces) {
+    inside->for_each_run([&](Index3 voxel, std::int64_t length) {
+      const Index3 at = voxel - first_;
+      std::uint8_t* const counts = counts_.data() + (at.z * size_.y + at.y) * size_.x + at.x;
+      for (std::int64_t i = 0; i < length; ++i) ++counts[i];
+    });
   }
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "document/inside_bits.h"
+#include "core/region.h"
 
 namespace tidemark::document {
 
@@ -13,7 +13,7 @@ class Agreement {
  public:
   Agreement() = default;
   // Of surfaces on one grid. It takes a byte a voxel of the box around all of them. At most 255 surfaces.
-  Agreement(const std::vector<const InsideBits*>& surfaces, Index3 grid_size);
+  Agreement(const std::vector<const Region*>& surfaces, Index3 grid_size);
 
   [[nodiscard]] int surfaces() const { return surfaces_; }
   [[nodiscard]] int not_empty() const { return not_empty_; }  // that have a voxel inside

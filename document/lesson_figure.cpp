@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "document/inside_bits.h"
+#include "core/region.h"
 #include "document/lesson_figure_names.h"
-#include "imaging/filters/filters.h"
+#include "imaging/regions/islands.h"
 #include "solver/distance_transform.h"
+#include "solver/inside_region.h"
 #include "solver/model.h"
 #include "solver/statistics.h"
 #include "solver/surface_agreement.h"
@@ -41,7 +42,7 @@ Figure sphericity(const LessonState& state, const Progress& /*progress*/) {
 }
 
 Figure bodies(const LessonState& state, const Progress& /*progress*/) {
-  return static_cast<double>(imaging::connected_components(state.phi.mask()).count);
+  return static_cast<double>(imaging::Islands(solver::inside_region(state.phi)).count());
 }
 
 Figure steps(const LessonState& state, const Progress& /*progress*/) {
@@ -58,7 +59,7 @@ Figure time_step(const LessonState& state, const Progress& /*progress*/) {
 
 Figure overlap(const LessonState& state, const Progress& /*progress*/) {
   if (state.truth == nullptr) return std::nullopt;
-  return dice(InsideBits(state.phi), InsideBits(*state.truth));
+  return dice(solver::inside_region(state.phi), Region(*state.truth));
 }
 
 Result<std::optional<solver::SurfaceDistance>> distance_to_truth(const LessonState& state,

@@ -9,6 +9,7 @@
 #include "core/thread_pool.h"
 #include "core/without_exceptions.h"
 #include "document/executor_setup.h"
+#include "solver/inside_region.h"
 #include "solver/speed/speed_registry.h"
 #include "solver/statistics.h"
 
@@ -86,7 +87,7 @@ void Runs::plan() {
 
 Status Runs::share_memory(int threads) {
   const Index3 size = start_.source->geometry.size;
-  const auto bits = checked_product(most_inside_bytes(size), std::ssize(sweep_.runs));
+  const auto bits = checked_product(most_region_bytes(size), std::ssize(sweep_.runs));
   const auto counts = checked_product(size.x, size.y, size.z);
   const std::int64_t left =
       bits && counts ? options_.memory_budget_bytes - *bits - *counts : std::int64_t{-1};
@@ -112,7 +113,7 @@ Result<Sweep> Runs::compute() {
   });
   if (progress_.cancelled()) return cancelled_error();
   TIDEMARK_TRY(std::move(failure_));
-  std::vector<const InsideBits*> surfaces;
+  std::vector<const Region*> surfaces;
   for (const SweepRun& run : sweep_.runs) {
     if (run.problem.empty()) surfaces.push_back(&run.inside);
   }
@@ -181,7 +182,7 @@ Status Runs::evolve(SweepRun& run) {
   run.outcome =
       outcome_of({*phi, surface.voxels_inside, run.steps, run.converged, start_.phi.get(), *start_.source,
                   run.parameters, setup->executor().speed().get(), setup->executor().constraints().get()});
-  run.inside = InsideBits(*phi);
+  run.inside = solver::inside_region(*phi);
   if (options_.truth != nullptr) run.dice = dice(run.inside, *options_.truth);
   return {};
 }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "core/region.h"
 #include "document/agreement.h"
-#include "document/inside_bits.h"
 #include "document/outcome.h"
 #include "document/recipe.h"
 #include "document/sweep_axis.h"
@@ -35,7 +35,7 @@ struct SweepOptions {
   std::vector<SweepAxis> axes;                    // one or two
   std::int64_t steps = solver::kMostStepsToRest;  // of a run, at most
   bool until_converged = true;
-  std::shared_ptr<const InsideBits> truth;                             // null: none
+  std::shared_ptr<const Region> truth;                                 // null: none
   int threads = 0;                                                     // 0: all processors of this process
   std::int64_t memory_budget_bytes = solver::default_memory_budget();  // for all runs and their results
   bool skip_quiet_pages = true;
@@ -49,7 +49,7 @@ struct SweepRun {
   Outcome outcome = Outcome::unfinished;
   double volume_ml = 0.0;
   std::optional<double> dice;  // with a truth
-  InsideBits inside;
+  Region inside;
   std::string problem;  // why it has no end, for lack of memory; empty: it has
 };
 

@@ -119,7 +119,7 @@ SweepCut sweep_cut(const Agreement& agreement, const Geometry& grid) {
           std::max(kMargin * std::max(side.x, side.y), kLeastVoxels * std::max(spacing.x, spacing.y))};
 }
 
-SweepPicture picture_of(const InsideBits& inside, const Volume& source, const WindowLevel& window,
+SweepPicture picture_of(const Region& inside, const Volume& source, const WindowLevel& window,
                         const SweepCut& cut, int side) {
   const auto at = [&](const Place& place, int x, int y) {
     const auto voxel = place.voxel(x, y);

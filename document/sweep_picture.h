@@ -6,8 +6,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "core/region.h"
 #include "core/volume.h"
-#include "document/inside_bits.h"
 #include "document/sweep.h"
 
 namespace tidemark::document {
@@ -30,8 +30,8 @@ struct SweepPicture {
   std::vector<std::uint8_t> pixels;
 };
 // The source in its window, with the inside tinted and outlined in the surface's yellow.
-[[nodiscard]] SweepPicture picture_of(const InsideBits& inside, const Volume& source,
-                                      const WindowLevel& window, const SweepCut& cut, int side);
+[[nodiscard]] SweepPicture picture_of(const Region& inside, const Volume& source, const WindowLevel& window,
+                                      const SweepCut& cut, int side);
 // The source, with the share of runs that have a voxel inside in heat_colour(); no colour where none has.
 [[nodiscard]] SweepPicture picture_of(const Agreement& agreement, const Volume& source,
                                       const WindowLevel& window, const SweepCut& cut, int side);

@@ -48,7 +48,7 @@ ShownImage shown_agreement(const document::Agreement& agreement, const Geometry&
 Result<std::shared_ptr<const SweepOutcome>> computed(const document::SweepStart& start,
                                                      document::SweepOptions options, const Mask* truth,
                                                      const WindowLevel& window, const Progress& progress) {
-  if (truth != nullptr) options.truth = std::make_shared<const document::InsideBits>(*truth);
+  if (truth != nullptr) options.truth = std::make_shared<const Region>(*truth);
   auto sweep = document::run_sweep(start, options, progress);
   if (!sweep) return pass_on(sweep);
   auto outcome = std::make_shared<SweepOutcome>();

@@ -145,7 +145,7 @@ Result<document::Sweep> SweepCommand::compute() {
   sweep.threads = executor.threads;
   sweep.memory_budget_bytes = executor.memory_budget_bytes;
   sweep.skip_quiet_pages = executor.skip_quiet_pages;
-  if (truth_) sweep.truth = std::make_shared<const document::InsideBits>(*truth_);
+  if (truth_) sweep.truth = std::make_shared<const Region>(*truth_);
   const document::Drive drive = document::value_of(recipe.drive);
   if (const Status good = document::check(axes_, recipe.parameters, drive.setting); !good) {
     return fail(good.error().kind, "--over: {}", good.error().message);

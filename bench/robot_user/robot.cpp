@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "imaging/filters/filters.h"
+#include "imaging/regions/islands.h"
 #include "solver/distance_transform.h"
 
 namespace tidemark {
@@ -46,7 +46,11 @@ Mask cropped(const Mask& mask, const Box& box) {
 std::optional<Index3> deepest(const Mask& mask) {
   const auto box = box_of(mask);
   if (!box) return std::nullopt;
-  const Mask part = imaging::connected_components(cropped(mask, *box)).largest;
+  const Mask near = cropped(mask, *box);
+  const imaging::Islands islands{Region(near)};
+  const Mask part = mask_of(
+      islands.region_of([largest = islands.largest()](std::size_t island) { return island == largest; }),
+      near.geometry);
   const solver::Field distance = solver::distance_transform(part, kFarthest);
   const std::vector<float> values = distance.dense();
   const auto most = std::max_element(values.begin(), values.end()) - values.begin();

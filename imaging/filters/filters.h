@@ -20,11 +20,4 @@ Mask threshold(const Volume& volume, double low, double high);
 // Fails (ErrorKind::usage) when the seed is outside the volume or its value is outside [low, high].
 Result<BitMask> flood_fill(const Volume& volume, Index3 seed, double low, double high);
 
-// The largest face-connected component of a mask, and how many components there are.
-struct Components {
-  std::int64_t count = 0;
-  Mask largest;
-};
-Components connected_components(const Mask& mask);
-
 }  // namespace tidemark::imaging

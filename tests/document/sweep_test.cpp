@@ -7,6 +7,7 @@
 
 #include "document/sweep_picture.h"
 #include "recipes.h"
+#include "solver/inside_region.h"
 #include "solver/speed/motion_limit.h"
 #include "tests/support/test_program.h"
 
@@ -154,30 +155,29 @@ class SweepTest : public QObject {
     }
     const auto phi = solver::Field::from_dense(grid, values, 3.0, page);
     const Mask mask = phi.mask();
-    const document::InsideBits bits(phi);
+    const Region bits = solver::inside_region(phi);
     QCOMPARE(bits.count(), mask.count());
     for (std::int64_t i = 0; i < grid.voxel_count(); ++i) {
       QCOMPARE(bits.contains(grid.voxel_at(i)), mask.voxels[static_cast<std::size_t>(i)] != 0);
     }
     QVERIFY(!bits.contains({-1, 12, 11}));
-    QVERIFY(bits.bytes() < document::most_inside_bytes(grid.size));
-    QCOMPARE(document::dice(bits, document::InsideBits(mask)), 1.0);
+    QCOMPARE(dice(bits, Region(mask)), 1.0);
     // Of a ball that is cut in two, by counting.
     Mask half = mask;
     for (std::int64_t i = 0; i < grid.voxel_count(); ++i) {
       if (grid.voxel_at(i).x > 30) half.voxels[static_cast<std::size_t>(i)] = 0;
     }
-    QCOMPARE(document::dice(bits, document::InsideBits(half)), dice(mask, half));
+    QCOMPARE(dice(bits, Region(half)), dice(mask, half));
   }
 
   void nothing_inside_takes_no_bits() {
     Geometry grid;
     grid.size = {20, 20, 20};
-    const document::InsideBits nothing(solver::Field::empty(grid, 2.5));
+    const Region nothing = solver::inside_region(solver::Field::empty(grid, 2.5));
     QCOMPARE(nothing.count(), std::int64_t{0});
     QCOMPARE(nothing.bytes(), std::int64_t{0});
     QVERIFY(!nothing.contains({0, 0, 0}));
-    QCOMPARE(document::dice(nothing, nothing), 1.0);
+    QCOMPARE(dice(nothing, nothing), 1.0);
   }
 
   void each_run_is_what_it_is_alone_data() {
@@ -203,7 +203,7 @@ class SweepTest : public QObject {
         QCOMPARE(run.parameters.alpha, kAlphas.value(column));
         QCOMPARE(run.parameters.range, kRanges.value(row));
         const auto single = alone(recipe, run, volume, until_converged);
-        QVERIFY(run.inside == document::InsideBits(single.phi));
+        QVERIFY(run.inside == solver::inside_region(single.phi));
         QCOMPARE(run.volume_ml, single.surface.volume_ml);
         QCOMPARE(run.steps, single.advance.steps);
         QCOMPARE(run.converged, single.advance.converged);
@@ -229,7 +229,7 @@ class SweepTest : public QObject {
         const document::SweepRun& run = sweep.at(column, row);
         QCOMPARE(run.parameters.range, kRanges.value(column));
         const auto single = alone(recipe, run, volume, true);
-        QVERIFY(run.inside == document::InsideBits(single.phi));
+        QVERIFY(run.inside == solver::inside_region(single.phi));
       }
     }
   }
@@ -246,7 +246,7 @@ class SweepTest : public QObject {
     const auto sweep = swept(recipe, volume, over({kAlphas}));
     for (const document::SweepRun& run : sweep.runs) {
       const auto single = alone(recipe, run, volume, true);
-      QVERIFY(run.inside == document::InsideBits(single.phi));
+      QVERIFY(run.inside == solver::inside_region(single.phi));
       QVERIFY(run.inside.count() < before.surface.voxels_inside);
     }
   }
@@ -281,7 +281,7 @@ class SweepTest : public QObject {
     auto options = over({kAlphas});
     const auto first = swept(lumpy_recipe(*volume), volume, options);
     QVERIFY(!first.runs.front().dice);
-    options.truth = std::make_shared<const document::InsideBits>(first.at(1, 0).inside);
+    options.truth = std::make_shared<const Region>(first.at(1, 0).inside);
     const auto compared = swept(lumpy_recipe(*volume), volume, options);
     QCOMPARE(compared.at(1, 0).dice, std::optional(1.0));
     QVERIFY(*compared.at(0, 0).dice < 1.0);
@@ -367,7 +367,7 @@ class SweepTest : public QObject {
     }
     QVERIFY2(yellow > 40 && yellow < 600, qPrintable(QString::number(yellow)));  // an outline
     QVERIFY(grey > 800);
-    const auto none = document::picture_of(document::InsideBits(), *volume, {700.0, 900.0}, cut, 64);
+    const auto none = document::picture_of(Region(), *volume, {700.0, 900.0}, cut, 64);
     for (std::size_t i = 0; i < none.pixels.size(); i += 4) QCOMPARE(none.pixels[i], none.pixels[i + 2]);
   }
 };

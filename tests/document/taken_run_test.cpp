@@ -2,6 +2,7 @@
 #include "document/session_contents.h"
 #include "document/sweep.h"
 #include "recipes.h"
+#include "solver/inside_region.h"
 #include "tests/support/test_program.h"
 
 using namespace tidemark;
@@ -24,8 +25,8 @@ document::SweepStart start_of(document::LevelSet& level_set) {
   return std::move(*start);
 }
 
-document::InsideBits inside(const document::LevelSet& level_set) {
-  return document::InsideBits(level_set.executor().snapshot().value());
+Region inside(const document::LevelSet& level_set) {
+  return solver::inside_region(level_set.executor().snapshot().value());
 }
 
 }  // namespace
@@ -50,7 +51,7 @@ class TakenRunTest : public QObject {
     QVERIFY(level_set.parameters() == wanted.parameters);
     QCOMPARE(level_set.step(), wanted.steps);
     // Where the case computes as runs do, it is the same surface to the last voxel.
-    const double same = document::dice(inside(level_set), wanted.inside);
+    const double same = dice(inside(level_set), wanted.inside);
     if (this_executor() == solver::ExecutorKind::host) {
       QVERIFY(inside(level_set) == wanted.inside);
     } else {

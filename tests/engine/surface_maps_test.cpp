@@ -7,12 +7,12 @@ namespace tidemark::test {
 namespace {
 
 // A ball around the middle of the grid.
-document::InsideBits ball(const Geometry& grid, double radius_mm) {
+Region ball(const Geometry& grid, double radius_mm) {
   Mask mask{grid, {}};
   const glm::dvec3 middle = grid.to_patient(0.5 * glm::dvec3(grid.size - Index3(1)));
   for (std::int64_t i = 0; i < grid.voxel_count(); ++i)
     mask.voxels.push_back(glm::distance(grid.to_patient(grid.voxel_at(i)), middle) < radius_mm ? 1 : 0);
-  return document::InsideBits(mask);
+  return Region(mask);
 }
 
 }  // namespace
@@ -22,10 +22,9 @@ class SurfaceMapsTest : public QObject {
 
   const Geometry grid_{{41, 41, 41}, {1.0, 1.0, 1.0}, glm::dmat3(1.0), {3.0, -2.0, 7.0}};
 
-  [[nodiscard]] static document::Agreement of(const std::vector<document::InsideBits>& runs,
-                                              const Geometry& grid) {
-    std::vector<const document::InsideBits*> pointers;
-    for (const document::InsideBits& run : runs) pointers.push_back(&run);
+  [[nodiscard]] static document::Agreement of(const std::vector<Region>& runs, const Geometry& grid) {
+    std::vector<const Region*> pointers;
+    for (const Region& run : runs) pointers.push_back(&run);
     return {pointers, grid.size};
   }
   // Along x from the middle of the grid.
@@ -60,7 +59,7 @@ class SurfaceMapsTest : public QObject {
   }
 
   void a_surface_that_has_vanished_is_nowhere() {
-    const auto runs = of({ball(grid_, 10.5), document::InsideBits(), ball(grid_, 10.5)}, grid_);
+    const auto runs = of({ball(grid_, 10.5), Region(), ball(grid_, 10.5)}, grid_);
     QCOMPARE(runs.surfaces(), 3);
     QCOMPARE(runs.not_empty(), 2);
     QCOMPARE(at(*engine::spread_map(runs, grid_), grid_, 10), -1.0);

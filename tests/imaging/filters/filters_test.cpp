@@ -230,25 +230,6 @@ class FiltersTest : public QObject {
     QVERIFY(wrong_value.error().message.find("(1, 2, 3)") != std::string::npos);
   }
 
-  void the_largest_component_is_found() {
-    Mask mask;
-    mask.geometry.size = {6, 5, 4};
-    mask.voxels.resize(120);
-    const auto set = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
-      mask.voxels[static_cast<std::size_t>(mask.geometry.offset({i, j, k}))] = 255;
-    };
-    set(0, 0, 0);
-    set(1, 1, 1);  // touches the first at a corner only
-    for (const int i : {3, 4, 5}) set(i, 2, 2);
-    set(5, 3, 2);
-    set(5, 3, 3);
-    const imaging::Components components = imaging::connected_components(mask);
-    QCOMPARE(components.count, std::int64_t{3});
-    QCOMPARE(components.largest.count(), std::int64_t{5});
-    QVERIFY(components.largest.voxels[static_cast<std::size_t>(mask.geometry.offset({5, 3, 3}))] == 1);
-    QVERIFY(components.largest.geometry == mask.geometry);
-  }
-
   void in_ct_the_first_suggestion_is_soft_tissue_and_not_the_fat_that_is_more_even() {
     for (const std::string modality : {"CT", ""}) {
       Volume body = body_like_ct();
@@ -279,17 +260,6 @@ class FiltersTest : public QObject {
     QVERIFY(!nowhere);
     QCOMPARE(nowhere.error().kind, ErrorKind::input);
     QVERIFY(nowhere.error().message.find("5000") != std::string::npos);
-  }
-
-  void an_empty_mask_has_no_component_and_a_full_one_has_one() {
-    Mask mask;
-    mask.geometry.size = {3, 3, 3};
-    mask.voxels.assign(27, 0);
-    QCOMPARE(imaging::connected_components(mask).count, std::int64_t{0});
-    QCOMPARE(imaging::connected_components(mask).largest.count(), std::int64_t{0});
-    mask.voxels.assign(27, 1);
-    QCOMPARE(imaging::connected_components(mask).count, std::int64_t{1});
-    QCOMPARE(imaging::connected_components(mask).largest.count(), std::int64_t{27});
   }
 };
 

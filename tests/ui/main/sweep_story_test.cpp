@@ -7,6 +7,7 @@
 
 #include "document/sweep_picture.h"
 #include "engine/case_sweep.h"
+#include "solver/inside_region.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/panel_docks.h"
@@ -124,7 +125,7 @@ void SweepStoryTest::a_run_is_taken_and_undone() {
   QVERIFY(std::abs(*desktop.state().dice - *wanted.dice) < 1e-3);
   QVERIFY(std::abs(desktop.state().surface.volume_ml / wanted.volume_ml - 1.0) < 1e-3);
   if (story_executor() == solver::ExecutorKind::host) {
-    QVERIFY(document::InsideBits(*desktop.state().phi) == wanted.inside);
+    QVERIFY(solver::inside_region(*desktop.state().phi) == wanted.inside);
   }
   desktop.screenshot("sweep-3-taken");
   desktop.press(Qt::Key_Z, Qt::ControlModifier);

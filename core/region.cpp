@@ -1,0 +1,195 @@
+#include "core/region.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+namespace tidemark {
+namespace {
+
+constexpr std::int64_t kBits = Region::kBits;
+
+VoxelRange box_of(const Region& region) {
+  return {region.first(), region.first() + region.size()};
+}
+
+VoxelRange common_box(const Region& a, const Region& b) {
+  return {glm::max(box_of(a).low, box_of(b).low), glm::min(box_of(a).high, box_of(b).high)};
+}
+
+// Calls visit(j, k, word of a, word of b) for the words of a box that both have room for; a reference to a
+// word of `a` where `a` may be changed.
+template <class A, class Visit>
+void for_each_common_word(A& a, const Region& b, const Visit& visit) {
+  const VoxelRange box = common_box(a, b);
+  if (box.empty()) return;
+  const auto words = static_cast<std::size_t>((box.high.x - box.low.x) / kBits);
+  const auto skip_a = static_cast<std::size_t>((box.low.x - a.first().x) / kBits);
+  const auto skip_b = static_cast<std::size_t>((box.low.x - b.first().x) / kBits);
+  for (std::int64_t k = box.low.z; k < box.high.z; ++k) {
+    for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
+      const auto in_a = a.row(j, k).subspan(skip_a, words);
+      const auto in_b = b.row(j, k).subspan(skip_b, words);
+      for (std::size_t w = 0; w < words; ++w) visit(in_a[w], in_b[w]);
+    }
+  }
+}
+
+}  // namespace
+
+VoxelRange VoxelRange::widened(Index3 voxels, Index3 grid_size) const {
+  return {glm::max(low - voxels, Index3(0)), glm::min(high + voxels, grid_size)};
+}
+
+Region::Region(const VoxelRange& box) {
+  if (box.empty()) return;
+  first_ = {box.low.x / kBits * kBits, box.low.y, box.low.z};
+  size_ = box.high - first_;
+  size_.x = (size_.x + kBits - 1) / kBits * kBits;
+  words_.assign(words_a_row() * static_cast<std::size_t>(size_.y * size_.z), 0);
+}
+
+Region::Region(const Mask& mask) : Region(VoxelRange{Index3(0), mask.geometry.size}) {
+  const std::uint8_t* value = mask.voxels.data();
+  for (std::uint64_t* word = words_.data(); word != words_.data() + words_.size(); word += words_a_row()) {
+    for (std::int64_t i = 0; i < mask.geometry.size.x; ++i, ++value)
+      word[i / kBits] |= std::uint64_t{*value != 0 ? 1U : 0U} << (i % kBits);
+  }
+}
+
+Region::Region(std::span<const std::uint8_t> values, std::uint8_t value, Index3 grid_size) {
+  if (values.empty()) return;
+  VoxelRange box{grid_size, Index3(0)};
+  const auto row_at = [&](std::int64_t j, std::int64_t k) {
+    return values.subspan(static_cast<std::size_t>((k * grid_size.y + j) * grid_size.x),
+                          static_cast<std::size_t>(grid_size.x));
+  };
+  for (std::int64_t k = 0; k < grid_size.z; ++k) {
+    for (std::int64_t j = 0; j < grid_size.y; ++j) {
+      const auto voxels = row_at(j, k);
+      const auto begin = std::find(voxels.begin(), voxels.end(), value);
+      if (begin == voxels.end()) continue;
+      const auto end = std::find(voxels.rbegin(), voxels.rend(), value).base();
+      box.low = glm::min(box.low, Index3(begin - voxels.begin(), j, k));
+      box.high = glm::max(box.high, Index3(end - voxels.begin(), j + 1, k + 1));
+    }
+  }
+  *this = Region(box);
+  for (std::int64_t k = box.low.z; k < box.high.z; ++k) {
+    for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
+      const auto voxels = row_at(j, k);
+      const auto words = row(j, k);
+      for (std::int64_t i = box.low.x; i < box.high.x; ++i) {
+        const std::int64_t bit = i - first_.x;
+        words[static_cast<std::size_t>(bit / kBits)] |=
+            std::uint64_t{voxels[static_cast<std::size_t>(i)] == value ? 1U : 0U} << (bit % kBits);
+      }
+    }
+  }
+}
+
+bool Region::contains(Index3 voxel) const {
+  const std::int64_t bit = voxel.x - first_.x;
+  if (bit < 0 || bit >= size_.x || !has_row(voxel.y, voxel.z)) return false;
+  return (row(voxel.y, voxel.z)[static_cast<std::size_t>(bit / kBits)] >> (bit % kBits) & 1U) != 0;
+}
+
+std::int64_t Region::count() const {
+  std::int64_t count = 0;
+  for (const std::uint64_t word : words_) count += std::popcount(word);
+  return count;
+}
+
+bool Region::empty() const {
+  return std::all_of(words_.begin(), words_.end(), [](std::uint64_t word) { return word == 0; });
+}
+
+VoxelRange Region::bounds() const {
+  VoxelRange box{first_ + size_, first_};
+  bool any = false;
+  for_each_run([&](Index3 voxel, std::int64_t length) {
+    any = true;
+    box.low = glm::min(box.low, voxel);
+    box.high = glm::max(box.high, voxel + Index3(length, 1, 1));
+  });
+  return any ? box : VoxelRange();
+}
+
+void Region::add_run(Index3 voxel, std::int64_t length) {
+  const auto words = row(voxel.y, voxel.z);
+  std::int64_t bit = voxel.x - first_.x;
+  const std::int64_t end = bit + length;
+  while (bit < end) {
+    const std::int64_t begin = bit % kBits;
+    const std::int64_t bits = std::min(kBits - begin, end - bit);
+    const std::uint64_t ones = ~std::uint64_t{0} >> (kBits - bits);
+    words[static_cast<std::size_t>(bit / kBits)] |= ones << begin;
+    bit += bits;
+  }
+}
+
+bool Region::operator==(const Region& other) const {
+  const std::int64_t count = this->count();
+  return count == other.count() && count == common_count(*this, other);
+}
+
+Region intersection(const Region& a, const Region& b) {
+  Region result(common_box(a, b));
+  for_each_common_word(result, a, [](std::uint64_t& to, std::uint64_t from) { to = from; });
+  for_each_common_word(result, b, [](std::uint64_t& to, std::uint64_t from) { to &= from; });
+  return result;
+}
+
+Region united(const Region& a, const Region& b) {
+  if (a.size().x == 0) return b;
+  if (b.size().x == 0) return a;
+  Region result(VoxelRange{glm::min(box_of(a).low, box_of(b).low), glm::max(box_of(a).high, box_of(b).high)});
+  for (const Region* part : {&a, &b})
+    for_each_common_word(result, *part, [](std::uint64_t& to, std::uint64_t from) { to |= from; });
+  return result;
+}
+
+Region difference(const Region& a, const Region& b) {
+  Region result = a;
+  for_each_common_word(result, b, [](std::uint64_t& to, std::uint64_t from) { to &= ~from; });
+  return result;
+}
+
+Region whole(const VoxelRange& box) {
+  Region all(box);
+  if (box.empty()) return all;
+  for (std::int64_t k = box.low.z; k < box.high.z; ++k) {
+    for (std::int64_t j = box.low.y; j < box.high.y; ++j)
+      all.add_run({box.low.x, j, k}, box.high.x - box.low.x);
+  }
+  return all;
+}
+
+Region complement(const Region& region, const VoxelRange& box) {
+  return difference(whole(box), region);
+}
+
+std::int64_t common_count(const Region& a, const Region& b) {
+  std::int64_t common = 0;
+  for_each_common_word(a, b,
+                       [&](std::uint64_t in_a, std::uint64_t in_b) { common += std::popcount(in_a & in_b); });
+  return common;
+}
+
+double dice(const Region& a, const Region& b) {
+  const std::int64_t both = a.count() + b.count();
+  return both == 0 ? 1.0 : 2.0 * static_cast<double>(common_count(a, b)) / static_cast<double>(both);
+}
+
+Mask mask_of(const Region& region, const Geometry& grid) {
+  Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
+  region.for_each_run([&](Index3 voxel, std::int64_t length) {
+    std::fill_n(mask.voxels.begin() + grid.offset(voxel), length, std::uint8_t{1});
+  });
+  return mask;
+}
+
+std::int64_t most_region_bytes(Index3 grid_size) {
+  return (grid_size.x + kBits - 1) / kBits * 8 * grid_size.y * grid_size.z;
+}
+
+}  // namespace tidemark
