@@ -41,15 +41,17 @@ Status write_result(const imaging::Segments& segments, imaging::ResultForm form,
              : imaging::write_structure_set(segments, source, file, progress);
 }
 
-Result<imaging::Segments> read_labels(const std::filesystem::path& file, const Geometry& grid,
+Result<imaging::Segments> read_labels(const std::filesystem::path& file, const Geometry* grid,
                                       const Progress& progress) {
   progress(0.0, "reading labels");
-  if (imaging::result_form_of(file)) return imaging::read_result(file, &grid);
+  if (imaging::result_form_of(file)) return imaging::read_result(file, grid);
   const auto volume = imaging::load_volume(file, {}, progress);
   if (!volume) return pass_on(volume);
-  const auto values = imaging::onto_grid(*volume, grid, file.string());
+  const auto values = grid != nullptr ? imaging::onto_grid(*volume, *grid, file.string())
+                                      : Result<std::vector<float>>(volume->values());
   if (!values) return pass_on(values);
-  auto segments = imaging::segments_of_numbers(grid, *values, file.string());
+  auto segments =
+      imaging::segments_of_numbers(grid != nullptr ? *grid : volume->geometry, *values, file.string());
   if (segments) segments->changes = volume->changes;
   return segments;
 }

@@ -21,9 +21,9 @@ Status write_result(const imaging::Segments& segments, imaging::ResultForm form,
                     const std::filesystem::path& file, const Progress& progress = {});
 
 // The labels in a file, on that grid: the segments of a DICOM Segmentation or RT Structure Set, or the
-// numbers of a volume file, whose axes may be in another order or run the other way. Fails (ErrorKind::input)
-// naming the file and why it does not fit.
-Result<imaging::Segments> read_labels(const std::filesystem::path& file, const Geometry& grid,
+// numbers of a volume file, whose axes may be in another order or run the other way. Without a grid: on its
+// own, which a structure set has not. Fails (ErrorKind::input) naming the file and why it does not fit.
+Result<imaging::Segments> read_labels(const std::filesystem::path& file, const Geometry* grid,
                                       const Progress& progress = {});
 
 }  // namespace tidemark::document

@@ -29,7 +29,7 @@ void ResultJobs::read_labels(const std::filesystem::path& file, const Geometry& 
   run(
       [=](const Progress& progress) -> Result<Found> {
         if (only_results && !imaging::result_form_of(file)) return Found();
-        auto segments = tidemark::document::read_labels(file, grid, progress);
+        auto segments = tidemark::document::read_labels(file, &grid, progress);
         if (!segments) return pass_on(segments);
         if (progress.cancelled()) return cancelled_error();
         return std::make_shared<const imaging::Segments>(std::move(*segments));

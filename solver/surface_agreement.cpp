@@ -62,6 +62,32 @@ Result<MeasuredSurface> MeasuredSurface::of(const Field& phi, const Progress& pr
   return MeasuredSurface(PointTree(std::move(*points)));
 }
 
+MeasuredSurface MeasuredSurface::of(const Region& region, const Geometry& grid) {
+  std::vector<glm::vec3> points;
+  const auto add_face = [&](Index3 voxel, int axis, double side) {
+    glm::dvec3 middle(voxel);
+    middle[axis] += 0.5 * side;
+    points.emplace_back(middle * grid.spacing_mm);
+  };
+  region.for_each_run([&](Index3 voxel, std::int64_t length) {
+    // A run ends where the region does, or the grid.
+    if (voxel.x > 0) add_face(voxel, 0, -1.0);
+    if (voxel.x + length < grid.size.x) add_face(voxel + Index3(length - 1, 0, 0), 0, 1.0);
+    for (const int axis : {1, 2}) {
+      for (const std::int64_t side : {-1, 1}) {
+        Index3 beside = voxel;
+        beside[axis] += side;
+        if (beside[axis] < 0 || beside[axis] >= grid.size[axis]) continue;
+        for (std::int64_t i = 0; i < length; ++i) {
+          if (!region.contains(beside + Index3(i, 0, 0)))
+            add_face(voxel + Index3(i, 0, 0), axis, static_cast<double>(side));
+        }
+      }
+    }
+  });
+  return MeasuredSurface(PointTree(std::move(points)));
+}
+
 Result<std::optional<SurfaceDistance>> MeasuredSurface::distance_to(const MeasuredSurface& other,
                                                                     const Progress& progress) const {
   if (empty() || other.empty()) return std::optional<SurfaceDistance>();

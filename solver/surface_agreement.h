@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/progress.h"
+#include "core/region.h"
 #include "solver/field.h"
 #include "solver/point_tree.h"
 
@@ -23,6 +24,9 @@ class MeasuredSurface {
  public:
   // Fails (ErrorKind::cancelled).
   static Result<MeasuredSurface> of(const Field& phi, const Progress& progress = {});
+  // The surface half way between a region's voxels and the others of the grid: its points are the middles of
+  // the faces between them. These are the crossings of the signed distance to the region's faces, too.
+  static MeasuredSurface of(const Region& region, const Geometry& grid);
 
   [[nodiscard]] bool empty() const { return crossings_.points().empty(); }
   // Unset: one of them is empty. Their grids must be the same. Fails (ErrorKind::cancelled).

@@ -1,0 +1,275 @@
+// tidemark-cli compare: how much segmentations share, and how far apart their surfaces are.
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "app/cli/outputs.h"
+#include "app/cli/program.h"
+#include "app/cli/study_input.h"
+#include "document/comparison.h"
+#include "document/result_files.h"
+#include "imaging/files/volume_file.h"
+#include "imaging/regions/staple.h"
+
+namespace tidemark::cli {
+namespace {
+
+constexpr const char* kSummary = "Compares segmentations: overlap, volumes and distances";
+constexpr const char* kDescription =
+    "Compares the segmentations A and B, and more of them each with each, on the voxels of the first: Dice, "
+    "Jaccard,\n"
+    "volumes in ml, what only one of them has, and the distances between their surfaces in mm, both ways "
+    "together\n"
+    "(mean, 95th percentile, largest). A surface runs half way between voxels inside and outside; distances "
+    "are\n"
+    "taken between the middles of the voxel faces that it consists of.\n"
+    "Files are volumes (every voxel that is not 0 is inside; with --labels each number is a label), DICOM\n"
+    "segmentations and RT structure sets.";
+
+constexpr const char* kExamples =
+    "  tidemark-cli compare mine.nii.gz theirs.nii.gz\n"
+    "  tidemark-cli compare mine.dcm theirs.dcm --labels --json\n"
+    "  tidemark-cli compare one.nii.gz two.nii.gz three.nii.gz --staple estimate.nii.gz\n";
+
+struct CompareOptions {
+  std::vector<std::string> files;
+  std::string grid;
+  std::string staple;
+  bool labels = false;
+};
+
+// A file's regions by name; one without a name where labels do not count.
+struct Reader {
+  std::string file;
+  std::vector<std::pair<std::string, Region>> regions;
+
+  [[nodiscard]] const Region* find(const std::string& name) const {
+    const auto found = std::find_if(regions.begin(), regions.end(),
+                                    [&](const auto& region) { return region.first == name; });
+    return found == regions.end() ? nullptr : &found->second;
+  }
+};
+
+struct Row {
+  std::string label;
+  const Reader* reader = nullptr;
+  const Reader* other = nullptr;
+  document::Comparison comparison;
+};
+
+Region region_of(const imaging::Segment& segment, const Geometry& grid) {
+  Region region(VoxelRange{Index3(0), grid.size});
+  for (const auto& [k, voxels] : segment.slices) {
+    for (std::int64_t j = 0; j < grid.size.y; ++j) {
+      const std::uint8_t* const row = voxels.data() + j * grid.size.x;
+      for (std::int64_t i = 0; i < grid.size.x; ++i) {
+        if (row[i] != 0) region.add({i, j, k});
+      }
+    }
+  }
+  return region;
+}
+
+// A name that is there already gets a number.
+std::string unused_name(const Reader& reader, const std::string& name) {
+  std::string unused = name;
+  for (int n = 2; reader.find(unused) != nullptr; ++n) unused = fmt::format("{} ({})", name, n);
+  return unused;
+}
+
+// `grid` becomes the file's own where it has none yet.
+Result<Reader> read(const std::string& file, bool labels, std::optional<Geometry>& grid, Console& console) {
+  const Geometry* const wanted = grid ? &*grid : nullptr;
+  Reader reader{file, {}};
+  if (!labels) {
+    auto loaded = imaging::load_any_mask(file, wanted, console.progress());
+    if (!loaded) return pass_on(loaded);
+    for (const std::string& change : loaded->changes) console.warn(fmt::format("{}: {}", file, change));
+    grid = loaded->mask.geometry;
+    reader.regions.emplace_back(std::string(), Region(loaded->mask));
+    return reader;
+  }
+  auto segments = document::read_labels(file, wanted, console.progress());
+  if (!segments) return pass_on(segments);
+  for (const std::string& change : segments->changes) console.warn(fmt::format("{}: {}", file, change));
+  grid = segments->geometry;
+  for (const imaging::Segment& segment : segments->list)
+    reader.regions.emplace_back(unused_name(reader, segment.name), region_of(segment, *grid));
+  return reader;
+}
+
+Json to_json(const Row& row) {
+  const document::Comparison& comparison = row.comparison;
+  const auto ml = [&](std::int64_t voxels) { return static_cast<double>(voxels) * comparison.voxel_ml; };
+  Json object;
+  if (!row.label.empty()) object["label"] = row.label;
+  object["a"] = row.reader->file;
+  object["b"] = row.other->file;
+  object["dice"] = comparison.dice();
+  object["jaccard"] = comparison.jaccard();
+  object["voxels_a"] = comparison.voxels;
+  object["voxels_b"] = comparison.other_voxels;
+  object["voxels_common"] = comparison.common;
+  object["volume_a_ml"] = ml(comparison.voxels);
+  object["volume_b_ml"] = ml(comparison.other_voxels);
+  object["only_a_ml"] = ml(comparison.voxels - comparison.common);
+  object["only_b_ml"] = ml(comparison.other_voxels - comparison.common);
+  const auto& distance = comparison.distance;
+  object["mean_distance_mm"] = distance ? Json(distance->mean_mm) : Json();
+  object["hausdorff95_mm"] = distance ? Json(distance->most_mm) : Json();
+  object["hausdorff_mm"] = distance ? Json(distance->largest_mm) : Json();
+  return object;
+}
+
+void say(Console& console, const std::vector<Row>& rows, bool names_files) {
+  console.say("{:<24} {:>7} {:>8} {:>10} {:>10} {:>9} {:>9} {:>9}", "", "Dice", "Jaccard", "A ml", "B ml",
+              "mean mm", "95 % mm", "most mm");
+  for (const Row& row : rows) {
+    const document::Comparison& comparison = row.comparison;
+    const auto& distance = comparison.distance;
+    const auto mm = [&](double value) { return distance ? fmt::format("{:.3f}", value) : std::string("-"); };
+    const std::string name = row.label.empty() ? "mask" : row.label;
+    if (names_files) console.say("{} and {}", row.reader->file, row.other->file);
+    console.say("{:<24} {:>7.4f} {:>8.4f} {:>10.3f} {:>10.3f} {:>9} {:>9} {:>9}", name, comparison.dice(),
+                comparison.jaccard(), static_cast<double>(comparison.voxels) * comparison.voxel_ml,
+                static_cast<double>(comparison.other_voxels) * comparison.voxel_ml,
+                mm(distance ? distance->mean_mm : 0.0), mm(distance ? distance->most_mm : 0.0),
+                mm(distance ? distance->largest_mm : 0.0));
+  }
+}
+
+// The names of all regions, in the order in which files bring them.
+std::vector<std::string> names_in(const std::vector<Reader>& readers) {
+  std::vector<std::string> names;
+  for (const Reader& reader : readers) {
+    for (const auto& region : reader.regions) {
+      if (std::find(names.begin(), names.end(), region.first) == names.end()) names.push_back(region.first);
+    }
+  }
+  return names;
+}
+
+Result<std::vector<Row>> compare_all(const std::vector<Reader>& readers, const Geometry& grid,
+                                     Console& console) {
+  const Region nothing;
+  std::vector<Row> rows;
+  for (const std::string& name : names_in(readers)) {
+    for (auto reader = readers.begin(); reader != readers.end(); ++reader) {
+      for (auto other = std::next(reader); other != readers.end(); ++other) {
+        const Region* a = reader->find(name);
+        const Region* b = other->find(name);
+        if (a == nullptr && b == nullptr) continue;
+        auto comparison = document::compare(a != nullptr ? *a : nothing, b != nullptr ? *b : nothing, grid,
+                                            console.progress());
+        if (!comparison) return pass_on(comparison);
+        rows.push_back({name, &*reader, &*other, *comparison});
+      }
+    }
+  }
+  return rows;
+}
+
+Result<Json> estimate(const std::vector<Reader>& readers, const Geometry& grid, const std::string& file,
+                      Outputs& outputs, Console& console) {
+  std::vector<Region> regions;
+  for (const Reader& reader : readers) regions.push_back(reader.regions.front().second);
+  auto estimated = imaging::estimate_truth(regions, grid);
+  if (!estimated) return pass_on(estimated);
+  const Mask mask = mask_of(estimated->region, grid);
+  Status staged = outputs.stage(
+      file, [&](const std::filesystem::path& name) { return imaging::write_mask_file(mask, name); });
+  if (!staged) return pass_on(staged);
+  Json object;
+  object["volume_ml"] = static_cast<double>(estimated->region.count()) * grid.spacing_mm.x *
+                        grid.spacing_mm.y * grid.spacing_mm.z / 1000.0;
+  for (std::size_t n = 0; n < readers.size(); ++n) {
+    const imaging::ReaderQuality& quality = estimated->readers[n];
+    const double overlap = dice(regions[n], estimated->region);
+    object["readers"].push_back({{"file", readers[n].file},
+                                 {"sensitivity", quality.sensitivity},
+                                 {"specificity", quality.specificity},
+                                 {"dice", overlap}});
+    console.say("STAPLE     {}: sensitivity {:.4f}, specificity {:.4f}, Dice {:.4f}", readers[n].file,
+                quality.sensitivity, quality.specificity, overlap);
+  }
+  return object;
+}
+
+Status check(const CompareOptions& options, Outputs& outputs) {
+  if (options.files.size() < 2) return fail(ErrorKind::usage, "compare needs two files at least");
+  if (options.staple.empty()) return {};
+  if (options.labels) return fail(ErrorKind::usage, "--staple is for masks, not for --labels");
+  TIDEMARK_TRY(outputs.announce("--staple", options.staple, {FileForm::volume}));
+  for (const std::string& file : options.files) {
+    TIDEMARK_TRY(outputs.spare(file));
+  }
+  return {};
+}
+
+Status run(Program& program, const CompareOptions& options) {
+  Console& console = program.console;
+  Outputs outputs;
+  TIDEMARK_TRY(check(options, outputs));
+  std::optional<Geometry> grid;
+  if (!options.grid.empty()) {
+    StudyInput study;
+    study.path = options.grid;
+    const auto chosen = find_study(study, console.progress());
+    if (!chosen) return pass_on(chosen);
+    grid = chosen->series.geometry;
+  }
+  std::vector<Reader> readers;
+  for (const std::string& file : options.files) {
+    auto reader = read(file, options.labels, grid, console);
+    if (!reader && !readers.empty() && options.grid.empty() && reader.error().kind == ErrorKind::input &&
+        std::filesystem::exists(file))
+      return fail(ErrorKind::input, "{} (--grid STUDY compares on the voxels of a study)",
+                  reader.error().message);
+    if (!reader) return pass_on(reader);
+    readers.push_back(std::move(*reader));
+    if (console.interrupted()) return cancelled_error();
+  }
+  auto rows = compare_all(readers, *grid, console);
+  if (!rows) return pass_on(rows);
+  say(console, *rows, readers.size() > 2);
+  Json result;
+  result["comparisons"] = Json::array();
+  for (const Row& row : *rows) result["comparisons"].push_back(to_json(row));
+  if (!options.staple.empty()) {
+    auto estimated = estimate(readers, *grid, options.staple, outputs, console);
+    if (!estimated) return pass_on(estimated);
+    result["staple"] = std::move(*estimated);
+    TIDEMARK_TRY(outputs.commit());
+    console.say("Wrote      {}", options.staple);
+  }
+  console.result(result);
+  return {};
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Program& program) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App& command = add_command(app, program, {"compare", kSummary, kDescription, kExamples},
+                                  [&program, options] { return run(program, *options); });
+  command.add_option("FILES", options->files, "Two segmentations or more: A B ...")
+      ->required()
+      ->type_name("");
+  command.add_flag(
+      "--labels", options->labels,
+      "Compares label by label: numbers of a volume, segments of the same name in DICOM results");
+  command
+      .add_option(
+          "--grid", options->grid,
+          "The study on whose voxels they are compared (default: the first file's own;\nRT structure sets "
+          "have none)")
+      ->type_name("INPUT");
+  command
+      .add_option(
+          "--staple", options->staple,
+          "Where an estimate of the truth from all files is written, by STAPLE\n(.nii .nii.gz .nrrd .mha: 1 "
+          "inside), with each one's sensitivity and specificity")
+      ->type_name("FILE");
+}
+
+}  // namespace tidemark::cli
