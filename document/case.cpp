@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "document/checksum.h"
+#include "solver/inside_region.h"
 
 namespace tidemark::document {
 
@@ -42,7 +43,7 @@ Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take) {
   TIDEMARK_TRY(level_set_->end_run());
   const auto phi = level_set_->checkpoint();
   if (!phi) return pass_on(phi);
-  return labels_.accept((*phi)->mask(), label, take);
+  return labels_.accept(solver::inside_region(**phi), label, take);
 }
 
 Status Case::begin_from_label(std::uint8_t label, std::optional<double> within_mm, int levels) {

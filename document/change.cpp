@@ -45,6 +45,8 @@ std::string describe(const ChangeDescription& change) {
       return fmt::format("import of {}", change.name);
     case ChangeKind::accept:
       return fmt::format("accept into {}", change.name);
+    case ChangeKind::finish:
+      return fmt::format("finishing of {}", change.name);
   }
   return {};
 }

@@ -32,6 +32,7 @@ enum class ChangeKind {
   remove_label,
   import_labels,
   accept,
+  finish,  // labels, by a tool
 };
 
 // A change in words. The interface words it in the user's language, describe() in English.

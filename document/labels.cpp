@@ -8,170 +8,212 @@
 namespace tidemark::document {
 namespace {
 
+Result<Label> new_label(const std::vector<Label>& list, std::string name) {
+  for (int id = 1; id <= 255; ++id) {
+    if (std::any_of(list.begin(), list.end(), [&](const Label& other) { return other.id == id; })) continue;
+    Label label;
+    label.id = static_cast<std::uint8_t>(id);
+    label.name = std::move(name);
+    label.colour = label_colour(label.id);
+    return label;
+  }
+  return fail(ErrorKind::usage, "there are 255 labels already");
+}
+
+}  // namespace
+
 // A run of voxels that had one label and have another one now.
-struct Run {
+struct Labels::Run {
   std::int64_t begin = 0;
   std::int64_t length = 0;
   std::uint8_t before = 0;
   std::uint8_t after = 0;
 };
 
-std::uint8_t at(const std::vector<std::uint8_t>& voxels, std::size_t i) {
-  return voxels.empty() ? std::uint8_t{0} : voxels[i];
-}
-
-std::vector<Run> changed_runs(const std::vector<std::uint8_t>& before,
-                              const std::vector<std::uint8_t>& after) {
-  std::vector<Run> runs;
-  for (std::size_t i = 0; i < std::max(before.size(), after.size()); ++i) {
-    const std::uint8_t old_id = at(before, i);
-    const std::uint8_t new_id = at(after, i);
-    if (old_id == new_id) continue;
-    const auto offset = static_cast<std::int64_t>(i);
-    if (!runs.empty() && runs.back().begin + runs.back().length == offset && runs.back().before == old_id &&
-        runs.back().after == new_id) {
-      ++runs.back().length;
-    } else {
-      runs.push_back({offset, 1, old_id, new_id});
-    }
-  }
-  runs.shrink_to_fit();
-  return runs;
-}
-
-}  // namespace
-
 class LabelsChange : public Change {
  public:
-  LabelsChange(Labels& labels, std::vector<Label> list_before, std::vector<Run> runs)
+  LabelsChange(Labels& labels, std::vector<Label> list_after, std::vector<Labels::Run> runs)
       : labels_(labels),
-        list_before_(std::move(list_before)),
-        list_after_(labels.list_),
+        list_before_(labels.list_),
+        list_after_(std::move(list_after)),
         runs_(std::move(runs)) {}
 
+  // The last run that was put is the first that is taken back.
   Status undo() override {
     labels_.list_ = list_before_;
-    return put(&Run::before);
+    put(runs_.rbegin(), runs_.rend(), &Labels::Run::before);
+    return {};
   }
   Status redo() override {
     labels_.list_ = list_after_;
-    return put(&Run::after);
+    put(runs_.begin(), runs_.end(), &Labels::Run::after);
+    return {};
   }
   [[nodiscard]] std::int64_t bytes() const override {
-    return static_cast<std::int64_t>(sizeof(*this) + runs_.size() * sizeof(Run) +
+    return static_cast<std::int64_t>(sizeof(*this) + runs_.size() * sizeof(Labels::Run) +
                                      (list_before_.size() + list_after_.size()) * sizeof(Label));
   }
 
  private:
-  Status put(std::uint8_t Run::*side) {
-    if (runs_.empty()) return {};
-    labels_.voxels_.resize(static_cast<std::size_t>(labels_.geometry_.voxel_count()));
-    for (const Run& run : runs_) std::fill_n(labels_.voxels_.begin() + run.begin, run.length, run.*side);
+  template <class Iterator>
+  void put(Iterator begin, Iterator end, std::uint8_t Labels::Run::*side) {
+    if (runs_.empty()) return;
+    for (auto run = begin; run != end; ++run) labels_.put(*run, side);
     ++labels_.revision_;
-    return {};
   }
 
   Labels& labels_;
   std::vector<Label> list_before_;
   std::vector<Label> list_after_;
-  std::vector<Run> runs_;
+  std::vector<Labels::Run> runs_;
 };
+
+void Labels::put(const Run& run, std::uint8_t Run::*side) {
+  std::fill_n(voxels_.begin() + run.begin, run.length, run.*side);
+}
 
 const Label* Labels::find(std::uint8_t id) const {
   const auto found = std::find_if(list_.begin(), list_.end(), [&](const Label& l) { return l.id == id; });
   return found == list_.end() ? nullptr : &*found;
 }
 
-Status Labels::change(ChangeKind kind, const std::string& name, Touches what,
-                      const std::function<void()>& edit) {
+Status Labels::change(ChangeKind kind, const std::string& name, std::vector<Label> list,
+                      std::vector<Run> runs) {
   if (history_ != nullptr) {
     TIDEMARK_TRY(history_->close());
   }
-  std::vector<Label> list_before = list_;
-  std::vector<std::uint8_t> voxels_before;
-  if (what == Touches::voxels) voxels_before = voxels_;
-  try {
-    edit();
-    std::vector<Run> runs;
-    if (what == Touches::voxels) {
-      runs = changed_runs(voxels_before, voxels_);
-      ++revision_;
-    }
-    if (history_ != nullptr) {
-      history_->add({kind, 0, name}, std::make_unique<LabelsChange>(*this, list_before, std::move(runs)));
-    }
-  } catch (...) {  // without memory for an entry of the history there is no change
-    list_ = std::move(list_before);
-    if (what == Touches::voxels) voxels_ = std::move(voxels_before);
-    throw;
-  }
-  return {};
+  // All that may lack memory comes first: without an entry of the history there is no change.
+  if (!runs.empty()) voxels_.resize(static_cast<std::size_t>(geometry_.voxel_count()));
+  runs.shrink_to_fit();
+  auto made = std::make_unique<LabelsChange>(*this, std::move(list), std::move(runs));
+  LabelsChange& change = *made;
+  if (history_ == nullptr) return change.redo();
+  history_->add({kind, 0, name}, std::move(made));
+  return change.redo();
 }
 
 Result<std::uint8_t> Labels::add(std::string name) {
-  for (int id = 1; id <= 255; ++id) {
-    if (find(static_cast<std::uint8_t>(id)) != nullptr) continue;
-    Label label;
-    label.id = static_cast<std::uint8_t>(id);
-    label.name = name;
-    label.colour = label_colour(label.id);
-    Status changed = change(ChangeKind::new_label, name, Touches::list, [&] { list_.push_back(label); });
-    if (!changed) return pass_on(changed);
-    return label.id;
-  }
-  return fail(ErrorKind::usage, "there are 255 labels already");
+  auto label = new_label(list_, std::move(name));
+  if (!label) return pass_on(label);
+  const std::uint8_t id = label->id;
+  std::vector<Label> list = list_;
+  list.push_back(*label);
+  Status changed = change(ChangeKind::new_label, label->name, std::move(list), {});
+  if (!changed) return pass_on(changed);
+  return id;
 }
 
 Status Labels::set(const Label& label) {
   const Label* present = find(label.id);
   if (present == nullptr) return fail(ErrorKind::usage, "there is no label {}", label.id);
   if (*present == label) return {};
-  const auto index = static_cast<std::size_t>(present - list_.data());
-  return change(ChangeKind::label_settings, label.name, Touches::list, [&] { list_[index] = label; });
+  std::vector<Label> list = list_;
+  list[static_cast<std::size_t>(present - list_.data())] = label;
+  return change(ChangeKind::label_settings, label.name, std::move(list), {});
 }
 
 Status Labels::remove(std::uint8_t id) {
   const Label* present = find(id);
   if (present == nullptr) return fail(ErrorKind::usage, "there is no label {}", id);
   if (present->locked) return fail(ErrorKind::usage, "label {} is locked", present->name);
-  return change(ChangeKind::remove_label, present->name, Touches::voxels, [&] {
-    std::erase_if(list_, [&](const Label& label) { return label.id == id; });
-    std::replace(voxels_.begin(), voxels_.end(), id, std::uint8_t{0});
+  std::vector<Label> list = list_;
+  std::erase_if(list, [&](const Label& label) { return label.id == id; });
+  std::vector<Run> runs;
+  region(id).for_each_run([&](Index3 voxel, std::int64_t length) {
+    runs.push_back({geometry_.offset(voxel), length, id, 0});
+  });
+  return change(ChangeKind::remove_label, present->name, std::move(list), std::move(runs));
+}
+
+Status Labels::check(const std::vector<Label>& list, const LabelRegion& wanted) const {
+  const auto label =
+      std::find_if(list.begin(), list.end(), [&](const Label& l) { return l.id == wanted.label; });
+  if (label == list.end()) return fail(ErrorKind::usage, "there is no label {}", wanted.label);
+  if (label->locked) return fail(ErrorKind::usage, "label {} is locked", label->name);
+  const VoxelRange bounds = wanted.region.bounds();
+  if (bounds.empty() || (geometry_.contains(bounds.low) && geometry_.contains(bounds.high - Index3(1))))
+    return {};
+  return fail(ErrorKind::usage, "what is accepted reaches beyond the grid of the labels");
+}
+
+// Those voxels of the region that are free get that label; `runs` were put already.
+void Labels::add_runs(const Region& region, std::uint8_t after, const std::array<bool, 256>& free,
+                      Acceptance& acceptance, std::vector<Run>& runs) const {
+  region.for_each_run([&](Index3 voxel, std::int64_t length) {
+    const std::int64_t begin = geometry_.offset(voxel);
+    for (std::int64_t at = begin; at < begin + length;) {
+      const std::uint8_t before = voxels_[static_cast<std::size_t>(at)];
+      std::int64_t end = at + 1;
+      while (end < begin + length && voxels_[static_cast<std::size_t>(end)] == before) ++end;
+      if (!free[before]) {
+        acceptance.left += end - at;
+      } else {
+        if (after != 0) acceptance.taken += end - at;
+        if (after != 0 && before != 0 && before != after) acceptance.from_others += end - at;
+        if (before != after) runs.push_back({at, end - at, before, after});
+      }
+      at = end;
+    }
   });
 }
 
-Result<Acceptance> Labels::accept(const Mask& mask, std::uint8_t id, Take take, bool replace) {
-  const Label* label = find(id);
-  if (label == nullptr) return fail(ErrorKind::usage, "there is no label {}", id);
-  if (label->locked) return fail(ErrorKind::usage, "label {} is locked", label->name);
-  if (mask.geometry.size != geometry_.size) {
-    return fail(ErrorKind::usage, "the mask and the labels have different grids");
-  }
-  std::array<bool, 256> free{};  // whose voxels may be given away
-  free[0] = free[id] = true;
-  for (const Label& other : list_) {
-    if (take == Take::others_too && !other.locked) free[other.id] = true;
-  }
-  Acceptance acceptance{.label = label->name};
-  Status changed = change(ChangeKind::accept, label->name, Touches::voxels, [&] {
-    voxels_.resize(mask.voxels.size());
-    for (std::size_t i = 0; i < mask.voxels.size(); ++i) {
-      std::uint8_t& voxel = voxels_[i];
-      if (mask.voxels[i] != 0) {
-        if (!free[voxel]) {
-          ++acceptance.left;
-          continue;
-        }
-        ++acceptance.taken;
-        if (voxel != 0 && voxel != id) ++acceptance.from_others;
-        voxel = id;
-      } else if (replace && voxel == id) {
-        voxel = 0;
-      }
+Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, bool replace) {
+  std::vector<Label> list = list_;
+  Acceptance acceptance;
+  for (LabelRegion& wanted : regions) {
+    if (wanted.label == 0) {
+      auto label = new_label(list, wanted.name);
+      if (!label) return pass_on(label);
+      wanted.label = label->id;
+      list.push_back(std::move(*label));
     }
-  });
+    TIDEMARK_TRY(check(list, wanted));
+    const auto& name =
+        std::find_if(list.begin(), list.end(), [&](const Label& l) { return l.id == wanted.label; })->name;
+    acceptance.label += (acceptance.label.empty() ? "" : ", ") + name;
+  }
+  voxels_.resize(static_cast<std::size_t>(geometry_.voxel_count()));
+  std::vector<Run> runs;
+  // Each region is found on top of those before it. Then they are taken back: change() puts them.
+  std::size_t put_so_far = 0;
+  const auto put_new = [&] {
+    for (; put_so_far < runs.size(); ++put_so_far) put(runs[put_so_far], &Run::after);
+  };
+  const auto take_back = [&] {
+    while (put_so_far > 0) put(runs[--put_so_far], &Run::before);
+  };
+  try {
+    for (const LabelRegion& wanted : regions) {
+      std::array<bool, 256> free{};  // whose voxels may be given away
+      free[0] = free[wanted.label] = true;
+      for (const Label& other : list) {
+        if (take == Take::others_too && !other.locked) free[other.id] = true;
+      }
+      if (replace) {
+        Acceptance cleared;
+        add_runs(difference(region(wanted.label), wanted.region), 0, free, cleared, runs);
+        put_new();
+      }
+      add_runs(wanted.region, wanted.label, free, acceptance, runs);
+      put_new();
+    }
+  } catch (...) {
+    take_back();
+    throw;
+  }
+  take_back();
+  Status changed = change(kind, acceptance.label, std::move(list), std::move(runs));
   if (!changed) return pass_on(changed);
   return acceptance;
+}
+
+Result<Acceptance> Labels::accept(const Region& region, std::uint8_t id, Take take, bool replace) {
+  if (find(id) == nullptr) return fail(ErrorKind::usage, "there is no label {}", id);
+  return give(ChangeKind::accept, {{id, {}, region}}, take, replace);
+}
+
+Result<Acceptance> Labels::finish(const std::vector<LabelRegion>& regions, Take take) {
+  return give(ChangeKind::finish, regions, take, true);
 }
 
 Mask Labels::mask(std::uint8_t id) const {
@@ -202,10 +244,20 @@ Status Labels::check(const std::vector<Label>& list, const std::vector<std::uint
 Status Labels::replace(ChangeKind kind, const std::string& name, std::vector<Label> list,
                        std::vector<std::uint8_t> voxels) {
   TIDEMARK_TRY(check(list, voxels));
-  return change(kind, name, Touches::voxels, [&] {
-    list_ = std::move(list);
-    voxels_ = std::move(voxels);
-  });
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < std::max(voxels.size(), voxels_.size()); ++i) {
+    const std::uint8_t before = i < voxels_.size() ? voxels_[i] : std::uint8_t{0};
+    const std::uint8_t after = i < voxels.size() ? voxels[i] : std::uint8_t{0};
+    if (before == after) continue;
+    const auto at = static_cast<std::int64_t>(i);
+    if (!runs.empty() && runs.back().begin + runs.back().length == at && runs.back().before == before &&
+        runs.back().after == after) {
+      ++runs.back().length;
+    } else {
+      runs.push_back({at, 1, before, after});
+    }
+  }
+  return change(kind, name, std::move(list), std::move(runs));
 }
 
 Status Labels::assign(std::vector<Label> list, std::vector<std::uint8_t> voxels) {

@@ -3,12 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/region.h"
 #include "core/volume.h"
 #include "document/history.h"
 #include "imaging/results/segment_meaning.h"
@@ -32,9 +32,16 @@ struct Label {
 // The voxels that a label may take when it accepts a mask. Those of locked labels stay in either case.
 enum class Take { free_voxels, others_too };
 
-// The outcome of accepting a mask, in voxels of the mask.
+// What a label is to become.
+struct LabelRegion {
+  std::uint8_t label = 0;  // 0: a new one
+  std::string name;        // of a new one
+  Region region;
+};
+
+// The outcome of accepting regions, in voxels of them.
 struct Acceptance {
-  std::string label;
+  std::string label;             // the name, or several
   std::int64_t taken = 0;        // of all that it has now
   std::int64_t from_others = 0;  // of `taken`: had another label before
   std::int64_t left = 0;         // stayed with other labels
@@ -58,11 +65,15 @@ class Labels {
   Status set(const Label& label);  // everything but the voxels of the label with that id
   Status remove(std::uint8_t id);  // and clears its voxels
 
-  // Gives the voxels of `mask` to the label. With `replace`, the label's other voxels are cleared. Fails
-  // (ErrorKind::usage) when the label is locked or unknown, or the grid differs.
-  Result<Acceptance> accept(const Mask& mask, std::uint8_t id, Take take = Take::free_voxels,
+  // Gives the voxels of `region` to the label. With `replace`, the label's other voxels are cleared. Fails
+  // (ErrorKind::usage) when the label is locked or unknown, or the region reaches beyond the grid.
+  Result<Acceptance> accept(const Region& region, std::uint8_t id, Take take = Take::free_voxels,
                             bool replace = true);
+  // The labels become those regions, one after the other: one entry of the history. Fails as accept() does,
+  // and where there is no room for a new label, changing nothing.
+  Result<Acceptance> finish(const std::vector<LabelRegion>& regions, Take take = Take::free_voxels);
   [[nodiscard]] Mask mask(std::uint8_t id) const;
+  [[nodiscard]] Region region(std::uint8_t id) const { return {voxels(), id, geometry_.size}; }
 
   // Other labels and other voxels, all at once. Fails as assign() does.
   Status replace(ChangeKind kind, const std::string& name, std::vector<Label> list,
@@ -74,11 +85,16 @@ class Labels {
 
  private:
   friend class LabelsChange;
+  struct Run;
   [[nodiscard]] Status check(const std::vector<Label>& list, const std::vector<std::uint8_t>& voxels) const;
+  [[nodiscard]] Status check(const std::vector<Label>& list, const LabelRegion& wanted) const;
+  Result<Acceptance> give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, bool replace);
+  void add_runs(const Region& region, std::uint8_t after, const std::array<bool, 256>& free,
+                Acceptance& acceptance, std::vector<Run>& runs) const;
+  void put(const Run& run, std::uint8_t Run::*side);
 
-  // Lets `edit` change the list, or the list and the voxels, and makes an entry of the difference.
-  enum class Touches { list, voxels };
-  Status change(ChangeKind kind, const std::string& name, Touches what, const std::function<void()>& edit);
+  // Another list and other voxels, as an entry of the history. The runs are put one after the other.
+  Status change(ChangeKind kind, const std::string& name, std::vector<Label> list, std::vector<Run> runs);
 
   Geometry geometry_;
   History* history_;

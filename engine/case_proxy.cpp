@@ -8,6 +8,7 @@
 #include "engine/case_passes.h"
 #include "engine/case_runner.h"
 #include "engine/case_sweep.h"
+#include "engine/label_finisher.h"
 #include "engine/lock_step.h"
 #include "engine/surface_maps.h"
 #include "engine/wanted_map.h"
@@ -21,6 +22,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
       truth_(restored.truth(*study_)),
       weak_receiver_(WeakReceiver::of(this)),
       sweep_(std::make_unique<CaseSweep>(*this)),
+      label_finisher_(std::make_unique<LabelFinisher>(*this)),
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;

@@ -34,6 +34,7 @@ class CaseBalance;
 class CasePasses;
 class CaseRunner;
 class CaseSweep;
+class LabelFinisher;
 class LockStep;
 class WantedMap;
 class WeakReceiver;
@@ -138,6 +139,9 @@ class CaseProxy : public QObject {
   void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels);
   void accept_surface_as(const QString& name, document::Take take = document::Take::free_voxels);
   // With `within_mm` the label is refined: the surface stays that near to it.
+  // The labels become those regions. As a tool makes them: see label_finisher().
+  void finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions, document::Take take);
+  [[nodiscard]] LabelFinisher& label_finisher() { return *label_finisher_; }
   void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
   // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,
@@ -199,6 +203,7 @@ class CaseProxy : public QObject {
   std::shared_ptr<CaseRunner> runner_;
   std::shared_ptr<LockStep> lock_step_;
   std::unique_ptr<CaseSweep> sweep_;
+  std::unique_ptr<LabelFinisher> label_finisher_;
   CaseState state_;
   std::unique_ptr<CaseBalance> balance_;
   std::unique_ptr<WantedMap> truth_error_;

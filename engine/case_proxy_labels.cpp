@@ -34,14 +34,23 @@ void CaseProxy::import_labels(std::shared_ptr<const imaging::Segments> segments)
 }
 
 void CaseProxy::accept_surface(std::uint8_t label, document::Take take) {
-  post([=](CaseRunner& runner, const Progress&) { return runner.accept_surface(label, take); });
+  post([=](CaseRunner& runner, const Progress&) {
+    return runner.report_acceptance(runner.document().accept_surface(label, take));
+  });
 }
 
 void CaseProxy::accept_surface_as(const QString& name, document::Take take) {
   post([name = name.toStdString(), take](CaseRunner& runner, const Progress&) -> Status {
     const auto id = runner.document().labels().add(name);
     if (!id) return pass_on(id);
-    return runner.accept_surface(*id, take);
+    return runner.report_acceptance(runner.document().accept_surface(*id, take));
+  });
+}
+
+void CaseProxy::finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions,
+                              document::Take take) {
+  post([regions = std::move(regions), take](CaseRunner& runner, const Progress&) {
+    return runner.report_acceptance(runner.document().labels().finish(*regions, take));
   });
 }
 

@@ -157,8 +157,7 @@ Status CaseRunner::report_labels(Status outcome) {
   return outcome;
 }
 
-Status CaseRunner::accept_surface(std::uint8_t label, document::Take take) {
-  auto accepted = case_->accept_surface(label, take);
+Status CaseRunner::report_acceptance(Result<document::Acceptance> accepted) {
   if (!accepted) return report_labels(pass_on(accepted));
   acceptance_ = std::move(*accepted);
   acceptance_position_ = case_->history().position();

@@ -59,7 +59,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status smooth_source(double sigma_mm);                 // in the background
   Status undo();
   Status go_to(std::uint64_t state);
-  Status accept_surface(std::uint8_t label, document::Take take);
+  Status report_acceptance(Result<document::Acceptance> accepted);
   Status take_run(const document::SweepStart& start, const document::SweepRun& run, const Progress& progress);
 
   [[nodiscard]] bool playing() const { return playing_; }

@@ -48,6 +48,8 @@ QString change_text(const document::ChangeDescription& change) {
       return tr("import of %1").arg(name);
     case document::ChangeKind::accept:
       return tr("accept into %1").arg(name);
+    case document::ChangeKind::finish:
+      return tr("finishing of %1").arg(name);
   }
   return {};
 }

@@ -14,16 +14,8 @@ using namespace tidemark::test;
 
 namespace {
 
-Mask box(const Geometry& geometry, Index3 first, Index3 last) {
-  Mask mask{geometry, std::vector<std::uint8_t>(static_cast<std::size_t>(geometry.voxel_count()))};
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        mask.voxels[static_cast<std::size_t>(geometry.offset({x, y, z}))] = 1;
-      }
-    }
-  }
-  return mask;
+Region box(Index3 first, Index3 last) {
+  return whole({first, last + Index3(1)});
 }
 
 Geometry small_grid() {
@@ -44,9 +36,8 @@ class LabelsTest : public QObject {
     document::Labels labels(small_grid());
     const std::uint8_t liver = labels.add("Liver").value();
     const std::uint8_t tumour = labels.add("Tumour").value();
-    QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver)), QString());
-    QCOMPARE(failure(labels.accept(box(labels.geometry(), {4, 0, 0}, {9, 5, 5}), tumour,
-                                   document::Take::others_too)),
+    QCOMPARE(failure(labels.accept(box({0, 0, 0}, {5, 5, 5}), liver)), QString());
+    QCOMPARE(failure(labels.accept(box({4, 0, 0}, {9, 5, 5}), tumour, document::Take::others_too)),
              QString());
     document::Label chosen = *labels.find(tumour);
     chosen.meaning = imaging::find_segment_meaning("cyst").value();
@@ -59,7 +50,7 @@ class LabelsTest : public QObject {
 
     document::Labels read(small_grid());
     const std::uint8_t bone = read.add("Bone").value();
-    QCOMPARE(failure(read.accept(box(read.geometry(), {0, 0, 0}, {0, 0, 0}), bone)), QString());
+    QCOMPARE(failure(read.accept(box({0, 0, 0}, {0, 0, 0}), bone)), QString());
     document::Label locked = *read.find(bone);
     locked.locked = true;
     QCOMPARE(failure(read.set(locked)), QString());
@@ -82,11 +73,12 @@ class LabelsTest : public QObject {
     document::History history;
     document::Labels labels(small_grid(), &history);
     const std::uint8_t bone = labels.add("Bone").value();
-    QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {3, 3, 3}), bone)), QString());
+    QCOMPARE(failure(labels.accept(box({0, 0, 0}, {3, 3, 3}), bone)), QString());
     const std::vector<std::uint8_t> before(labels.voxels().begin(), labels.voxels().end());
-    imaging::Segments two = imaging::segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), "Left kidney");
+    imaging::Segments two =
+        imaging::segments_of(mask_of(box({2, 2, 2}, {5, 5, 5}), labels.geometry()), "Left kidney");
     two.list.push_back(
-        imaging::segments_of(box(labels.geometry(), {5, 5, 5}, {7, 7, 7}), "Cyst").list.front());
+        imaging::segments_of(mask_of(box({5, 5, 5}, {7, 7, 7}), labels.geometry()), "Cyst").list.front());
     QCOMPARE(failure(document::add_segments(labels, two)), QString());
     QCOMPARE(labels.list().size(), std::size_t{3});
     QCOMPARE(labels.mask(2).count(), std::int64_t{63});  // the later one has what both hold
@@ -103,8 +95,8 @@ class LabelsTest : public QObject {
   // They come out of files of others, and go into session files and files for others.
   void names_and_codes_that_nobody_could_write_again_are_cut_or_left_out() {
     document::Labels labels(small_grid());
-    imaging::Segments segments =
-        imaging::segments_of(box(labels.geometry(), {2, 2, 2}, {5, 5, 5}), std::string(63, 'x') + "ä");
+    imaging::Segments segments = imaging::segments_of(mask_of(box({2, 2, 2}, {5, 5, 5}), labels.geometry()),
+                                                      std::string(63, 'x') + "ä");
     segments.list.front().meaning.type = {std::string(300, '1'), "SCT", "Liver"};
     QCOMPARE(failure(document::add_segments(labels, segments)), QString());
     QCOMPARE(labels.list().front().name, std::string(63, 'x'));
@@ -115,8 +107,8 @@ class LabelsTest : public QObject {
     document::Labels labels(small_grid());
     const std::uint8_t liver = labels.add("Liver").value();
     const std::uint8_t tumour = labels.add("Tumour").value();
-    const Mask left = box(labels.geometry(), {0, 0, 0}, {5, 5, 5});
-    const Mask right = box(labels.geometry(), {4, 0, 0}, {9, 5, 5});
+    const Region left = box({0, 0, 0}, {5, 5, 5});
+    const Region right = box({4, 0, 0}, {9, 5, 5});
     QCOMPARE(failure(labels.accept(left, liver)), QString());
     QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
     document::Label locked = *labels.find(liver);
@@ -138,9 +130,8 @@ class LabelsTest : public QObject {
     document::Labels labels(small_grid());
     const std::uint8_t liver = labels.add("Liver").value();
     const std::uint8_t tumour = labels.add("Tumour").value();
-    QCOMPARE(labels.accept(box(labels.geometry(), {0, 0, 0}, {5, 5, 5}), liver).value().taken,
-             std::int64_t{216});
-    const Mask right = box(labels.geometry(), {4, 0, 0}, {9, 5, 5});
+    QCOMPARE(labels.accept(box({0, 0, 0}, {5, 5, 5}), liver).value().taken, std::int64_t{216});
+    const Region right = box({4, 0, 0}, {9, 5, 5});
     const document::Acceptance careful = labels.accept(right, tumour).value();
     QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
     QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
@@ -158,26 +149,21 @@ class LabelsTest : public QObject {
   void accepting_replaces_or_adds() {
     document::Labels labels(small_grid());
     const std::uint8_t id = labels.add("one").value();
-    QCOMPARE(failure(labels.accept(box(labels.geometry(), {0, 0, 0}, {1, 1, 1}), id)), QString());
-    QCOMPARE(failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id,
-                                   document::Take::free_voxels, false)),
+    QCOMPARE(failure(labels.accept(box({0, 0, 0}, {1, 1, 1}), id)), QString());
+    QCOMPARE(failure(labels.accept(box({2, 0, 0}, {3, 1, 1}), id, document::Take::free_voxels, false)),
              QString());
     QCOMPARE(labels.mask(id).count(), std::int64_t{16});
-    QCOMPARE(failure(labels.accept(box(labels.geometry(), {2, 0, 0}, {3, 1, 1}), id)), QString());
+    QCOMPARE(failure(labels.accept(box({2, 0, 0}, {3, 1, 1}), id)), QString());
     QCOMPARE(labels.mask(id).count(), std::int64_t{8});
   }
 
   void what_cannot_be_done_is_refused() {
     document::Labels labels(small_grid());
-    const Mask mask = box(labels.geometry(), {0, 0, 0}, {1, 1, 1});
-    QCOMPARE(labels.accept(mask, 3).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.accept(box({0, 0, 0}, {1, 1, 1}), 3).error().kind, ErrorKind::usage);
     QCOMPARE(labels.remove(3).error().kind, ErrorKind::usage);
     QCOMPARE(labels.set({}).error().kind, ErrorKind::usage);
     const std::uint8_t id = labels.add("one").value();
-    Mask other = mask;
-    other.geometry.size = {3, 3, 3};
-    other.voxels.resize(27);
-    QCOMPARE(labels.accept(other, id).error().kind, ErrorKind::usage);
+    QCOMPARE(labels.accept(box({10, 0, 0}, {12, 1, 1}), id).error().kind, ErrorKind::usage);
     QCOMPARE(labels.voxels().size(), std::size_t{0});
   }
 
@@ -226,8 +212,7 @@ class LabelsTest : public QObject {
       } else {
         const document::Take take =
             random() % 2 == 0 ? document::Take::free_voxels : document::Take::others_too;
-        auto accepted =
-            labels.accept(box(labels.geometry(), first, first + Index3(2)), id, take, random() % 2 == 0);
+        auto accepted = labels.accept(box(first, first + Index3(2)), id, take, random() % 2 == 0);
         done = accepted ? Status() : pass_on(accepted);
       }
       QCOMPARE(failure(done), QString());
@@ -251,8 +236,9 @@ class LabelsTest : public QObject {
     volume.intercept = 500.0;
     document::Labels labels(volume.geometry);
     const std::uint8_t id = labels.add("one").value();
-    const Mask mask = box(volume.geometry, {2, 3, 4}, {6, 7, 8});
-    QCOMPARE(failure(labels.accept(mask, id)), QString());
+    const Region region = box({2, 3, 4}, {6, 7, 8});
+    const Mask mask = mask_of(region, volume.geometry);
+    QCOMPARE(failure(labels.accept(region, id)), QString());
     double sum = 0.0;
     double squares = 0.0;
     const std::vector<float> values = volume.values();
@@ -268,7 +254,7 @@ class LabelsTest : public QObject {
     const auto shared = std::make_shared<const Volume>(volume);
     document::InsideStatistics inside;
     // Of another surface first: what it does not share with the mask's is taken away again.
-    inside.measure(shared, surface_of(box(volume.geometry, {0, 0, 0}, {9, 9, 9})));
+    inside.measure(shared, surface_of(mask_of(box({0, 0, 0}, {9, 9, 9}), volume.geometry)));
     for (const document::RegionStatistics& found : {inside.measure(shared, surface_of(mask)), all[id]}) {
       QCOMPARE(found.voxels, std::int64_t{125});
       QVERIFY(std::abs(found.volume_ml - 125.0 * 1.3 / 1000.0) < 1e-12);

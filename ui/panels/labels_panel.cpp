@@ -11,6 +11,7 @@
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/panels/label_tool_controls.h"
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
 #include "ui/panels/refine_choice.h"
@@ -30,6 +31,11 @@ LabelsPanel::LabelsPanel(QWidget* parent)
     : Panel(tr("Open a study to keep what you segment as labels."), parent), model_(new LabelsModel(this)) {
   add(make_table());
   add(make_actions());
+  tools_ = new LabelToolControls;
+  add(tools_);
+  connect(take_all_, &QCheckBox::toggled, this, [this](bool on) {
+    tools_->set_take(on ? document::Take::others_too : document::Take::free_voxels);
+  });
   connect(model_, &LabelsModel::edited, this, [this](const document::Label& label) {
     if (proxy()) proxy()->set_label(label);
   });
@@ -41,7 +47,7 @@ QWidget* LabelsPanel::make_table() {
   table_->setModel(model_);
   table_->setAccessibleName(tr("Labels"));
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   table_->setTabKeyNavigation(false);
   table_->setShowGrid(false);
@@ -150,6 +156,13 @@ const document::Label* LabelsPanel::chosen() const {
   return rows.isEmpty() ? nullptr : model_->label(rows.first().row());
 }
 
+std::vector<std::uint8_t> LabelsPanel::all_chosen() const {
+  std::vector<std::uint8_t> labels;
+  for (const QModelIndex& index : table_->selectionModel()->selectedRows())
+    labels.push_back(model_->label(index.row())->id);
+  return labels;
+}
+
 void LabelsPanel::add_label() {
   if (!proxy()) return;
   choose_new_ = true;
@@ -228,6 +241,7 @@ void LabelsPanel::refresh() {
 void LabelsPanel::show_buttons() {
   const document::Label* label = chosen();
   remove_->setEnabled(label != nullptr);
+  tools_->set_labels(all_chosen());
   meaning_->show_label(label);
   const bool begun = proxy() && proxy()->state().begun;
   const bool locked = label && label->locked;

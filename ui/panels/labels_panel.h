@@ -12,6 +12,7 @@ class QToolButton;
 
 namespace tidemark::ui {
 
+class LabelToolControls;
 class LabelsModel;
 class MeaningPicker;
 class SliderNumber;
@@ -35,7 +36,8 @@ class LabelsPanel : public Panel {
   [[nodiscard]] QString new_name() const;
   void choose_colour(const QModelIndex& index);
   void show_buttons();
-  [[nodiscard]] const document::Label* chosen() const;
+  [[nodiscard]] const document::Label* chosen() const;  // the first of them
+  [[nodiscard]] std::vector<std::uint8_t> all_chosen() const;
 
   LabelsModel* model_;
   QTableView* table_;
@@ -48,6 +50,7 @@ class LabelsPanel : public Panel {
   QPushButton* refine_;
   SliderNumber* within_;
   SliderNumber* opacity_;
+  LabelToolControls* tools_;
   bool choose_new_ = false;  // a label was added here: it becomes the chosen one
 };
 

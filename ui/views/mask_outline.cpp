@@ -128,19 +128,37 @@ QList<QLineF> outline_in(const Lattice& lattice, double level, const ValueAt& va
   return lines;
 }
 
+// Half way between voxels that are inside and others; all that are lie in the box.
+template <class IsInside>
+QList<QLineF> outline_of_voxels(const Geometry& geometry, const VoxelBox& box,
+                                const renderer::SliceOrientation& orientation, glm::dvec3 position_mm,
+                                const IsInside& is_inside) {
+  return outline_in(lattice_in(geometry, box, orientation, position_mm), 0.5, [&](glm::dvec3 point) {
+    return interpolated(geometry.to_voxel(point), [&](Index3 voxel) { return is_inside(voxel) ? 1.0 : 0.0; });
+  });
+}
+
 }  // namespace
 
 QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientation& orientation,
                                glm::dvec3 position_mm) {
   const Geometry& geometry = mask.geometry;
   const VoxelBox whole{Index3(0), geometry.size - Index3(1)};
-  return outline_in(lattice_in(geometry, whole, orientation, position_mm), 0.5, [&](glm::dvec3 point) {
-    return interpolated(geometry.to_voxel(point), [&](Index3 voxel) {
-      return geometry.contains(voxel) && mask.voxels[static_cast<std::size_t>(geometry.offset(voxel))] != 0
-                 ? 1.0
-                 : 0.0;
-    });
+  return outline_of_voxels(geometry, whole, orientation, position_mm, [&](Index3 voxel) {
+    return geometry.contains(voxel) && mask.voxels[static_cast<std::size_t>(geometry.offset(voxel))] != 0;
   });
+}
+
+QList<QLineF> outline_in_slice(const engine::LabelPreview& preview,
+                               const renderer::SliceOrientation& orientation, glm::dvec3 position_mm) {
+  QList<QLineF> lines;
+  for (const document::LabelRegion& part : preview.regions) {
+    const VoxelRange bounds = part.region.bounds();
+    if (bounds.empty()) continue;
+    lines += outline_of_voxels(preview.from.geometry, {bounds.low, bounds.high - Index3(1)}, orientation,
+                               position_mm, [&](Index3 voxel) { return part.region.contains(voxel); });
+  }
+  return lines;
 }
 
 QList<QLineF> outline_in_slice(const solver::Field& phi, const renderer::SliceOrientation& orientation,

@@ -5,6 +5,7 @@
 #include <QList>
 
 #include "core/volume.h"
+#include "engine/label_finisher.h"
 #include "renderer/camera.h"
 #include "solver/field.h"
 
@@ -14,6 +15,10 @@ namespace tidemark::ui {
 // from the patient's origin. `position_mm`: a point of the slice (LPS).
 QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientation& orientation,
                                glm::dvec3 position_mm);
+
+// Of each region that labels would become.
+QList<QLineF> outline_in_slice(const engine::LabelPreview& preview,
+                               const renderer::SliceOrientation& orientation, glm::dvec3 position_mm);
 
 // Of phi = 0, between voxels by interpolation.
 QList<QLineF> outline_in_slice(const solver::Field& phi, const renderer::SliceOrientation& orientation,

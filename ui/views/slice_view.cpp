@@ -82,6 +82,7 @@ SliceViewWidget::SliceViewWidget(engine::CaseProxy& proxy, SlicePlane plane, ren
   setAccessibleName(title());
   connect(&proxy, &engine::CaseProxy::state_changed, this, &SliceViewWidget::follow_marks);
   connect(&proxy.comparison(), &engine::StateComparison::changed, this, &SliceViewWidget::paint_again);
+  connect(&proxy.label_finisher(), &engine::LabelFinisher::changed, this, &SliceViewWidget::paint_again);
   connect(&images_, &ImageOverlay::arrived, this, &SliceViewWidget::ask);
 }
 
@@ -272,6 +273,7 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   paint_swipe_line(painter);
   paint_truth(painter, on_screen);
   paint_compared(painter, on_screen);
+  paint_preview(painter, on_screen);
   paint_marks(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
   paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
@@ -319,6 +321,12 @@ void SliceViewWidget::paint_compared(QPainter& painter, const SliceScreen& on_sc
   if (content_ == renderer::SliceContent::pages) return;
   compared_outline_.paint(painter, proxy().comparison().phi(), orientation(), settings().cursor_mm, on_screen,
                           kComparedColour);
+}
+
+void SliceViewWidget::paint_preview(QPainter& painter, const SliceScreen& on_screen) {
+  if (content_ != renderer::SliceContent::source) return;
+  preview_outline_.paint(painter, proxy().label_finisher().preview(), orientation(), settings().cursor_mm,
+                         on_screen, kPreviewColour);
 }
 
 engine::DrawnMarks SliceViewWidget::marks() const {

@@ -59,6 +59,7 @@ class SliceViewWidget : public PictureView {
   void paint_swipe_line(QPainter& painter) const;
   void paint_truth(QPainter& painter, const SliceScreen& on_screen);
   void paint_compared(QPainter& painter, const SliceScreen& on_screen);
+  void paint_preview(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
   void paint_legend(QPainter& painter) const;  // of what colours mean
   [[nodiscard]] engine::DrawnMarks marks() const;
@@ -69,6 +70,7 @@ class SliceViewWidget : public PictureView {
   renderer::SliceContent content_;
   SliceOutline<Mask> truth_outline_;
   SliceOutline<solver::Field> compared_outline_;
+  SliceOutline<engine::LabelPreview> preview_outline_;
   MarksOverlay marks_overlay_;
   engine::DrawnMarks marks_;     // as of the last state
   mutable ImageOverlay images_;  // asked for when a picture is

@@ -1,0 +1,138 @@
+// How long the tools that finish labels take, and how well slices are filled.
+//
+//   label_bench                    20 labels on 512 x 512 x 600 voxels, each tool on the largest one and on
+//   all label_bench FILE [LABEL]       every fourth slice of a label given, along each axis: Dice of what was
+//   filled
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <random>
+
+#include "document/label_tool.h"
+#include "imaging/load_study.h"
+#include "imaging/regions/fill_slices.h"
+
+using namespace tidemark;
+
+namespace {
+
+class Watch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+// A large ball and 19 others beside each other, each with bubbles inside and crumbs around.
+document::LabelVoxels labelled_volume() {
+  document::LabelVoxels volume;
+  volume.geometry.size = {512, 512, 600};
+  volume.geometry.spacing_mm = {0.7, 0.7, 1.0};
+  const Index3 size = volume.geometry.size;
+  auto voxels =
+      std::make_shared<std::vector<std::uint8_t>>(static_cast<std::size_t>(volume.geometry.voxel_count()));
+  std::mt19937 random(1);
+  for (int label = 1; label <= 20; ++label) {
+    document::Label named;
+    named.id = static_cast<std::uint8_t>(label);
+    named.name = fmt::format("Label {}", label);
+    volume.list.push_back(named);
+    const int n = label - 2;
+    const glm::dvec3 centre = label == 1 ? glm::dvec3(180.0, 180.0, 200.0)
+                                         : glm::dvec3(40.0 + 70.0 * (n % 5), 40.0 + 70.0 * (n / 5), 480.0);
+    const double radius = label == 1 ? 150.0 : 30.0;
+    // Crumbs around it.
+    for (int crumb = 0; crumb < 10'000; ++crumb) {
+      glm::dvec3 place(random() % 1000, random() % 1000, random() % 1000);
+      place = (centre + radius * (place / 500.0 - 1.0) * 1.1) / volume.geometry.spacing_mm;
+      if (volume.geometry.contains(Index3(place)))
+        (*voxels)[static_cast<std::size_t>(volume.geometry.offset(Index3(place)))] = named.id;
+    }
+    for (auto k = static_cast<std::int64_t>(centre.z - radius);
+         k <= static_cast<std::int64_t>(centre.z + radius); ++k) {
+      for (std::int64_t j = 0; j < size.y; ++j) {
+        for (std::int64_t i = 0; i < size.x; ++i) {
+          const glm::dvec3 off = glm::dvec3(i, j, k) * volume.geometry.spacing_mm - centre;
+          if (off.x * off.x + off.y * off.y + off.z * off.z > radius * radius) continue;
+          // One voxel in a hundred is missing: bubbles everywhere.
+          if (random() % 100 == 0) continue;
+          (*voxels)[static_cast<std::size_t>(volume.geometry.offset({i, j, k}))] = named.id;
+        }
+      }
+    }
+  }
+  volume.voxels = std::move(voxels);
+  return volume;
+}
+
+void time_tools() {
+  const document::LabelVoxels volume = labelled_volume();
+  std::vector<std::uint8_t> all;
+  for (const document::Label& label : volume.list) all.push_back(label.id);
+  document::Labels labels(volume.geometry);
+  if (!labels.assign(volume.list, *volume.voxels)) std::exit(1);
+  fmt::print("{:<28} {:>9} {:>9} {:>9}\n", "seconds", "largest", "all 20", "applied");
+  using document::LabelTool;
+  for (const auto& [name, tool, amount] : {std::tuple("largest island", LabelTool::largest_island, 0.0),
+                                           {"small islands", LabelTool::small_islands, 1.0},
+                                           {"holes", LabelTool::holes, 0.0},
+                                           {"holes in slices", LabelTool::slice_holes, 0.0},
+                                           {"grow by 5 mm", LabelTool::grow, 5.0},
+                                           {"shrink by 5 mm", LabelTool::shrink, 5.0},
+                                           {"median of 2 mm", LabelTool::median, 2.0},
+                                           {"Gaussian of 2 mm", LabelTool::gaussian, 2.0}}) {
+    document::LabelToolUse use;
+    use.tool = tool;
+    use.amount = amount;
+    const Watch one;
+    const auto largest = document::use_tool(use, {1}, volume);
+    const double seconds_of_one = one.seconds();
+    const Watch every;
+    const auto regions = document::use_tool(use, all, volume);
+    const double seconds_of_all = every.seconds();
+    if (!largest || !regions) std::exit(1);
+    const Watch applying;
+    if (!labels.finish(*largest)) std::exit(1);
+    fmt::print("{:<28} {:>9.2f} {:>9.2f} {:>9.2f}\n", name, seconds_of_one, seconds_of_all,
+               applying.seconds());
+    if (!labels.assign(volume.list, *volume.voxels)) std::exit(1);
+  }
+}
+
+int fill_slices(const char* file, const char* label) {
+  const auto volume = imaging::load_volume(file);
+  if (!volume) {
+    fmt::print(stderr, "{}\n", volume.error().message);
+    return 3;
+  }
+  const Geometry& grid = volume->geometry;
+  const auto wanted = static_cast<float>(label != nullptr ? std::atof(label) : 1.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    Region truth(VoxelRange{Index3(0), grid.size});
+    Region drawn = truth;
+    for (std::int64_t i = 0; i < grid.voxel_count(); ++i) {
+      if (volume->value(i) != wanted) continue;
+      truth.add(grid.voxel_at(i));
+      if (grid.voxel_at(i)[axis] % 4 == 0) drawn.add(grid.voxel_at(i));
+    }
+    const auto filled = imaging::with_slices_filled(drawn, grid, axis);
+    // Beyond the first and the last slice that were drawn nothing is known.
+    VoxelRange known{Index3(0), grid.size};
+    known.low[axis] = drawn.bounds().low[axis];
+    known.high[axis] = drawn.bounds().high[axis];
+    if (filled) fmt::print("axis {}: Dice {:.4f}\n", axis, dice(*filled, intersection(truth, whole(known))));
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 1) return fill_slices(argv[1], argc > 2 ? argv[2] : nullptr);
+  time_tools();
+  return 0;
+}

@@ -1,0 +1,149 @@
+// Labels are finished by tools: chosen, looked at in slices, applied and undone, by mouse and keys.
+#include <QAbstractButton>
+#include <QComboBox>
+#include <QLabel>
+#include <QTableView>
+
+#include "engine/label_finisher.h"
+#include "imaging/regions/margin.h"
+#include "tests/support/test_program.h"
+#include "tests/ui/main/desktop.h"
+#include "ui/main/panel_docks.h"
+#include "ui/panels/labels_panel.h"
+#include "ui/widgets/number_box.h"
+
+namespace tidemark::test {
+
+class FinishLabelsStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_label_grows_is_smoothed_and_split();
+  void a_tool_works_on_the_case_that_is_seen();
+
+ private:
+  template <class Widget>
+  static Widget* seen(QWidget& in, const QString& text) {
+    for (Widget* widget : in.findChildren<Widget*>()) {
+      if (!widget->isVisible()) continue;
+      if (widget->accessibleName() == text) return widget;
+      if constexpr (std::is_base_of_v<QAbstractButton, Widget>) {
+        if (widget->text() == text) return widget;
+      }
+    }
+    qFatal("no %s", qPrintable(text));
+  }
+  static void click(Desktop& desktop, QWidget& in, const QString& text) {
+    auto* button = seen<QAbstractButton>(in, text);
+    QVERIFY2(button->isEnabled(), qPrintable(text));
+    QTest::mouseClick(button, Qt::LeftButton, {}, {8, button->height() / 2});
+    desktop.wait_until_idle();
+  }
+  static ui::LabelsPanel* shown_panel(Desktop& desktop) {
+    desktop.window().panels().show("labels");
+    desktop.wait_until_idle();
+    auto* panel = desktop.window().findChild<ui::LabelsPanel*>();
+    if (!panel || !panel->isVisible()) qFatal("there is no panel");
+    return panel;
+  }
+  // By keys, until it is the current one.
+  static void choose(QWidget& in, const QString& combo, const QString& entry) {
+    auto* choice = seen<QComboBox>(in, combo);
+    choice->setFocus();
+    QTest::keyClick(choice, Qt::Key_Home);
+    for (int i = 0; i < choice->count() && choice->currentText() != entry; ++i)
+      QTest::keyClick(choice, Qt::Key_Down);
+    QCOMPARE(choice->currentText(), entry);
+  }
+  static void wait_for_preview(Desktop& desktop, ui::LabelsPanel& panel) {
+    QVERIFY(Desktop::wait_for([&] { return seen<QAbstractButton>(panel, "Apply to labels")->isEnabled(); }));
+    QVERIFY(desktop.proxy().label_finisher().is_current());
+    desktop.wait_until_idle();
+  }
+  static void type_amount(QWidget& panel, const QString& text) {
+    auto* box = seen<ui::NumberBox>(panel, "Amount");
+    QTest::mouseClick(box, Qt::LeftButton);
+    box->selectAll();
+    QTest::keyClicks(box, text);
+    QTest::keyClick(box, Qt::Key_Tab);
+  }
+  static Region region(Desktop& desktop, std::uint8_t label) {
+    const auto& voxels = desktop.state().label_voxels;
+    return voxels ? Region(*voxels, label, desktop.proxy().volume().geometry.size) : Region();
+  }
+  static void make_label(Desktop& desktop, ui::LabelsPanel& panel) {
+    desktop.begin(8.0);
+    click(desktop, panel, "Accept surface into label");
+    QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  }
+};
+
+void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  make_label(desktop, panel);
+  const Geometry& grid = desktop.proxy().volume().geometry;
+  const Region before = region(desktop, 1);
+  const QImage without = desktop.view<ui::SliceViewWidget>("Axial")->grab_picture();
+
+  choose(panel, "Tool", "Grow");
+  type_amount(panel, "4,5");  // either separator is understood
+  wait_for_preview(desktop, panel);
+  desktop.screenshot("finish-0-grow");
+  // Slices show it, and nothing is changed yet.
+  QVERIFY(region(desktop, 1) == before);
+  QVERIFY(difference(desktop.view<ui::SliceViewWidget>("Axial")->grab_picture(), without) > 0.0005);
+  const Region wanted = imaging::grown(before, grid, 4.5).value();
+  QVERIFY(desktop.proxy().label_finisher().preview()->regions.front().region == wanted);
+  click(desktop, panel, "Apply to labels");
+  QVERIFY(region(desktop, 1) == wanted);
+  QVERIFY(!desktop.proxy().label_finisher().preview());
+  QCOMPARE(desktop.state().undo_text, QString("finishing of Label 1"));
+  desktop.screenshot("finish-1-grown");
+
+  choose(panel, "Tool", "Split at the clip plane");
+  wait_for_preview(desktop, panel);
+  desktop.screenshot("finish-2-split");
+  click(desktop, panel, "Apply to labels");
+  QCOMPARE(desktop.state().labels.size(), std::size_t{2});
+  QVERIFY(tidemark::united(region(desktop, 1), region(desktop, 2)) == wanted);
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.wait_until_idle();
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == before);
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+
+  // What cannot be done is said, and nothing is applied.
+  choose(panel, "Tool", "Fill between slices");
+  QVERIFY(Desktop::wait_for([&] {
+    for (QLabel* label : panel.findChildren<QLabel*>()) {
+      if (label->isVisible() && label->text().contains("no empty slice")) return true;
+    }
+    return false;
+  }));
+  QVERIFY(!seen<QAbstractButton>(panel, "Apply to labels")->isEnabled());
+  desktop.screenshot("finish-3-refused");
+}
+
+void FinishLabelsStoryTest::a_tool_works_on_the_case_that_is_seen() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  make_label(desktop, panel);
+  auto* first = desktop.window().active_case();
+  choose(panel, "Tool", "Shrink");
+  wait_for_preview(desktop, panel);
+  // Another case: the tool is put away, and the first case's preview with it.
+  QVERIFY(desktop.open_phantom("dumbbell"));
+  desktop.wait_until_idle();
+  QCOMPARE(seen<QComboBox>(panel, "Tool")->currentText(), QString("None"));
+  QVERIFY(!first->proxy().label_finisher().preview());
+  QVERIFY(!desktop.proxy().label_finisher().preview());
+}
+
+}  // namespace tidemark::test
+
+TIDEMARK_TEST(tidemark::test::FinishLabelsStoryTest)
+#include "finish_labels_story_test.moc"

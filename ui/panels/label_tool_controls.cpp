@@ -1,0 +1,281 @@
+#include "ui/panels/label_tool_controls.h"
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <array>
+#include <cmath>
+
+#include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
+#include "ui/widgets/slider_number.h"
+#include "ui/widgets/work_line.h"
+
+namespace tidemark::ui {
+namespace {
+
+using document::LabelTool;
+
+constexpr int kSoonMs = 150;  // a slider that moves asks for one preview, not for each of its places
+
+enum class Amount { none, mm, ml };
+
+struct ToolText {
+  LabelTool tool;
+  const char* name;
+  const char* tip;
+  Amount amount = Amount::none;
+  double first = 0.0;  // the amount that it begins with
+  double most = 0.0;
+};
+
+constexpr std::array kTools{
+    ToolText{
+        LabelTool::largest_island, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Keep the largest island"),
+        QT_TRANSLATE_NOOP("tidemark::LabelTool", "Parts that do not touch it across a voxel's face go.")},
+    ToolText{
+        LabelTool::island_here, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Keep the island under the cross"),
+        QT_TRANSLATE_NOOP("tidemark::LabelTool", "Put the cross of the slice views into it; all others go.")},
+    ToolText{LabelTool::small_islands, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Remove small islands"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool", "Islands below this volume go."), Amount::ml, 0.1,
+             100.0},
+    ToolText{LabelTool::holes, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Fill holes"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool", "What the label encloses on all sides belongs to it.")},
+    ToolText{LabelTool::slice_holes, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Fill holes in slices"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool",
+                               "What the label encloses in an acquired slice belongs to it.")},
+    ToolText{
+        LabelTool::grow, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Grow"),
+        QT_TRANSLATE_NOOP("tidemark::LabelTool", "A margin around the label, the same in all directions."),
+        Amount::mm, 2.0, 30.0},
+    ToolText{LabelTool::shrink, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Shrink"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool",
+                               "Takes a margin away. At the end of the volume nothing is taken."),
+             Amount::mm, 2.0, 30.0},
+    ToolText{LabelTool::median, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Smooth by the median"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool", "Rounds edges; what is thinner than the radius goes."),
+             Amount::mm, 2.0, 10.0},
+    ToolText{LabelTool::gaussian, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Smooth and keep the volume"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool", "By a Gaussian, at the level that keeps the volume."),
+             Amount::mm, 1.5, 10.0},
+    ToolText{LabelTool::slices, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Fill between slices"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool",
+                               "Empty slices between drawn ones, by the distances to both outlines.")},
+    ToolText{LabelTool::add, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Add"),
+             QT_TRANSLATE_NOOP(
+                 "tidemark::LabelTool",
+                 "The inside of the surface, or another label, of which voxels are taken only if the box "
+                 "above is ticked.")},
+    ToolText{LabelTool::subtract, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Subtract"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool", "What lies inside of the surface, too, goes.")},
+    ToolText{LabelTool::intersect, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Intersect"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool", "What does not lie inside of the surface goes.")},
+    ToolText{LabelTool::split, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Split at the clip plane"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool",
+                               "What the plane of the 3D view cuts off becomes a label of its own.")},
+    ToolText{LabelTool::mirror, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Mirror"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool", "At the middle of the volume.")},
+};
+
+QString text_of(const char* words) {
+  return QCoreApplication::translate("tidemark::LabelTool", words);
+}
+
+const ToolText& text_of(LabelTool tool) {
+  return *std::find_if(kTools.begin(), kTools.end(), [&](const ToolText& text) { return text.tool == tool; });
+}
+
+bool has_axis(LabelTool tool) {
+  return tool == LabelTool::slices || tool == LabelTool::mirror;
+}
+
+bool has_other(LabelTool tool) {
+  return tool == LabelTool::add || tool == LabelTool::subtract || tool == LabelTool::intersect;
+}
+
+// The axis of the grid that runs most along an axis of the patient.
+int grid_axis(const Geometry& grid, int patient_axis) {
+  int best = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (std::abs(grid.direction[axis][patient_axis]) > std::abs(grid.direction[best][patient_axis]))
+      best = axis;
+  }
+  return best;
+}
+
+}  // namespace
+
+LabelToolControls::LabelToolControls(QWidget* parent) : CaseWidget(parent) {
+  Form form(this);
+  form.heading(tr("Finish"));
+  tool_ = form.choice(
+      tr("Tool"), tr("What is done with the chosen labels. Slices show the outcome before it is applied."));
+  tool_->addItem(tr("None"));
+  for (const ToolText& text : kTools) tool_->addItem(text_of(text.name), static_cast<int>(text.tool));
+  connect(tool_, &QComboBox::activated, this, &LabelToolControls::choose_tool);
+  hint_ = form.note({});
+  amount_ = form.slider(tr("Amount"), tr("Of the chosen tool."));
+  amount_->set_decimals(1);
+  connect(amount_, &SliderNumber::edited, this, &LabelToolControls::look_again);
+  axis_ = form.choice(tr("Direction"), tr("Which slices were drawn, or which sides change places."));
+  axis_->addItem(tr("Axial"), 2);
+  axis_->addItem(tr("Coronal"), 1);
+  axis_->addItem(tr("Sagittal"), 0);
+  connect(axis_, &QComboBox::activated, this, &LabelToolControls::look_again);
+  other_ = form.choice(tr("With"), tr("Whose voxels are added, taken away, or kept."));
+  connect(other_, &QComboBox::activated, this, &LabelToolControls::look_again);
+  figures_ = form.note({});
+  work_ = new WorkLine;
+  form.wide(work_);
+  connect(work_, &WorkLine::cancelled, this, [this] {
+    if (finisher()) finisher()->cancel();
+  });
+  apply_ = new QPushButton(tr("Apply to labels"));
+  form.wide(apply_);
+  connect(apply_, &QPushButton::clicked, this, [this] {
+    if (!finisher()) return;
+    finisher()->apply(take_);
+    tool_->setCurrentIndex(0);
+    choose_tool();
+  });
+  rows_ = form.layout();
+  soon_.setSingleShot(true);
+  soon_.setInterval(kSoonMs);
+  connect(&soon_, &QTimer::timeout, this, &LabelToolControls::look);
+  choose_tool();
+}
+
+engine::LabelFinisher* LabelToolControls::finisher() const {
+  return proxy() ? &proxy()->label_finisher() : nullptr;
+}
+
+std::optional<LabelTool> LabelToolControls::tool() const {
+  const QVariant chosen = tool_->currentData();
+  if (!chosen.isValid()) return std::nullopt;
+  return static_cast<LabelTool>(chosen.toInt());
+}
+
+document::LabelToolUse LabelToolControls::use() const {
+  document::LabelToolUse use;
+  use.tool = *tool();
+  use.amount = amount_->value();
+  const Geometry& grid = proxy()->volume().geometry;
+  use.axis = grid_axis(grid, axis_->currentData().toInt());
+  use.other = static_cast<std::uint8_t>(other_->currentData().toInt());
+  const engine::DisplaySettings& settings = proxy()->display().settings();
+  use.voxel = Index3(glm::round(grid.to_voxel(settings.cursor_mm)));
+  use.normal = settings.clip.normal;
+  use.point_mm = settings.clip.normal * settings.clip.offset_mm;
+  return use;
+}
+
+void LabelToolControls::choose_tool() {
+  const auto chosen = tool();
+  const ToolText* text = chosen ? &text_of(*chosen) : nullptr;
+  hint_->setText(text ? text_of(text->tip) : QString());
+  if (text && text->amount != Amount::none) {
+    amount_->set_unit(text->amount == Amount::mm ? tr("mm") : tr("ml"));
+    amount_->set_range(0.1, text->most, SliderNumber::Scale::logarithmic);
+    amount_->set_value(text->first);
+  }
+  const auto show_row = [this](QWidget* widget, bool shown) { rows_->setRowVisible(widget, shown); };
+  show_row(hint_, text != nullptr);
+  show_row(amount_, text && text->amount != Amount::none);
+  show_row(axis_, chosen && has_axis(*chosen));
+  show_row(other_, chosen && has_other(*chosen));
+  show_row(figures_, false);
+  show_row(work_, false);
+  show_row(apply_, text != nullptr);
+  if (!chosen && finisher()) finisher()->clear();
+  if (proxy()) fill_others();
+  look_again();
+  show_buttons();
+}
+
+void LabelToolControls::fill_others() {
+  const QVariant was = other_->currentData();
+  other_->clear();
+  other_->addItem(tr("Surface"), document::kTheSurface);
+  for (const document::Label& label : proxy()->state().labels) {
+    // Labels do not overlap: there is nothing to take away from one another.
+    if (tool() != LabelTool::add || labels_ == std::vector{label.id}) continue;
+    other_->addItem(QString::fromStdString(label.name), label.id);
+  }
+  other_->setCurrentIndex(std::max(other_->findData(was), 0));
+}
+
+void LabelToolControls::set_labels(const std::vector<std::uint8_t>& labels) {
+  if (labels == labels_) return;
+  labels_ = labels;
+  if (proxy()) fill_others();
+  look_again();
+  show_buttons();
+}
+
+void LabelToolControls::look_again() {
+  if (proxy() && tool()) soon_.start();
+}
+
+void LabelToolControls::look() {
+  if (!finisher() || !tool()) return;
+  if (labels_.empty()) return say(tr("Choose a label in the table."));
+  looked_at_ = proxy()->state().label_voxels;
+  rows_->setRowVisible(figures_, false);
+  rows_->setRowVisible(work_, true);
+  work_->begin(tr("Preview"));
+  finisher()->begin(use(), labels_);
+  show_buttons();
+}
+
+void LabelToolControls::show_preview() {
+  rows_->setRowVisible(work_, false);
+  const auto& preview = finisher() ? finisher()->preview() : nullptr;
+  if (preview && tool()) {
+    const double change = preview->after_ml - preview->before_ml;
+    figures_->setText(tr("%1 ml become %2 ml (%3%4 ml).")
+                          .arg(number_text(preview->before_ml, 2), number_text(preview->after_ml, 2),
+                               change < 0.0 ? QStringLiteral("−") : QStringLiteral("+"),
+                               number_text(std::abs(change), 2)));
+  }
+  rows_->setRowVisible(figures_, preview && tool());
+  show_buttons();
+}
+
+void LabelToolControls::say(const QString& text) {
+  rows_->setRowVisible(work_, false);
+  figures_->setText(text);
+  rows_->setRowVisible(figures_, true);
+  show_buttons();
+}
+
+void LabelToolControls::show_buttons() {
+  apply_->setEnabled(finisher() && tool() && finisher()->is_current() && !finisher()->busy() &&
+                     !soon_.isActive());
+}
+
+void LabelToolControls::attach() {
+  if (shown_) {
+    disconnect(shown_, nullptr, this, nullptr);
+    shown_->clear();
+  }
+  shown_ = finisher();
+  tool_->setCurrentIndex(0);
+  choose_tool();
+  if (!shown_) return;
+  connect(shown_, &engine::LabelFinisher::changed, this, &LabelToolControls::show_preview);
+  connect(shown_, &engine::LabelFinisher::failed, this, [this](const QString& message) {
+    shown_->clear();
+    say(message);
+  });
+  connect(shown_, &engine::LabelFinisher::cancelled, this, &LabelToolControls::show_preview);
+  connect(shown_, &engine::LabelFinisher::progressed, work_, &WorkLine::set_progress);
+}
+
+void LabelToolControls::refresh() {
+  fill_others();
+  if (tool() && looked_at_ != proxy()->state().label_voxels) look_again();
+  show_buttons();
+}
+
+}  // namespace tidemark::ui
