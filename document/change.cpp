@@ -47,6 +47,8 @@ std::string describe(const ChangeDescription& change) {
       return fmt::format("accept into {}", change.name);
     case ChangeKind::finish:
       return fmt::format("finishing of {}", change.name);
+    case ChangeKind::label_brush:
+      return fmt::format("brush on {}", change.name);
   }
   return {};
 }

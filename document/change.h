@@ -33,6 +33,7 @@ enum class ChangeKind {
   import_labels,
   accept,
   finish,  // labels, by a tool
+  label_brush,
 };
 
 // A change in words. The interface words it in the user's language, describe() in English.

@@ -21,9 +21,10 @@ constexpr std::int64_t kMostPages = std::int64_t{1} << 22;  // 8 GB; memory is t
 
 // In the order of ChangeKind.
 const std::vector<std::string_view> kKinds{
-    "start",     "paint",     "erase",          "target",       "range",         "smoothing", "parameters",
-    "evolution", "step back", "restart",        "sweep",        "source",        "examples",  "constraints",
-    "speed",     "new label", "label settings", "remove label", "import labels", "accept",    "finish"};
+    "start",         "paint",       "erase",     "target",     "range",          "smoothing",
+    "parameters",    "evolution",   "step back", "restart",    "sweep",          "source",
+    "examples",      "constraints", "speed",     "new label",  "label settings", "remove label",
+    "import labels", "accept",      "finish",    "label brush"};
 
 bool same_start(const Start& a, const Start& b) {
   if (a.seeds != b.seeds || a.erasers != b.erasers || a.from.index() != b.from.index()) return false;

@@ -157,7 +157,7 @@ void Labels::add_runs(const Region& region, std::uint8_t after, const std::array
   });
 }
 
-Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, bool replace) {
+Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, Giving giving) {
   std::vector<Label> list = list_;
   Acceptance acceptance;
   for (LabelRegion& wanted : regions) {
@@ -189,12 +189,17 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
       for (const Label& other : list) {
         if (take == Take::others_too && !other.locked) free[other.id] = true;
       }
-      if (replace) {
+      if (giving == Giving::erases) {
+        Acceptance erased;
+        std::array<bool, 256> own{};
+        own[wanted.label] = true;
+        add_runs(wanted.region, 0, own, erased, runs);
+      } else if (giving == Giving::replaces) {
         Acceptance cleared;
         add_runs(difference(region(wanted.label), wanted.region), 0, free, cleared, runs);
         put_new();
       }
-      add_runs(wanted.region, wanted.label, free, acceptance, runs);
+      if (giving != Giving::erases) add_runs(wanted.region, wanted.label, free, acceptance, runs);
       put_new();
     }
   } catch (...) {
@@ -209,11 +214,18 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
 
 Result<Acceptance> Labels::accept(const Region& region, std::uint8_t id, Take take, bool replace) {
   if (find(id) == nullptr) return fail(ErrorKind::usage, "there is no label {}", id);
-  return give(ChangeKind::accept, {{id, {}, region}}, take, replace);
+  return give(ChangeKind::accept, {{id, {}, region}}, take, replace ? Giving::replaces : Giving::adds);
 }
 
 Result<Acceptance> Labels::finish(const std::vector<LabelRegion>& regions, Take take) {
-  return give(ChangeKind::finish, regions, take, true);
+  return give(ChangeKind::finish, regions, take, Giving::replaces);
+}
+
+Result<Acceptance> Labels::brush(LabelRegion stroke, Stroke what, Take take) {
+  std::vector<LabelRegion> regions;
+  regions.push_back(std::move(stroke));
+  return give(ChangeKind::label_brush, std::move(regions), take,
+              what == Stroke::adds ? Giving::adds : Giving::erases);
 }
 
 Mask Labels::mask(std::uint8_t id) const {

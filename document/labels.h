@@ -72,6 +72,9 @@ class Labels {
   // The labels become those regions, one after the other: one entry of the history. Fails as accept() does,
   // and where there is no room for a new label, changing nothing.
   Result<Acceptance> finish(const std::vector<LabelRegion>& regions, Take take = Take::free_voxels);
+  // A stroke over a region: the label gets its voxels, or loses them. Fails as finish() does.
+  enum class Stroke { adds, erases };
+  Result<Acceptance> brush(LabelRegion stroke, Stroke what, Take take = Take::free_voxels);
   [[nodiscard]] Mask mask(std::uint8_t id) const;
   [[nodiscard]] Region region(std::uint8_t id) const { return {voxels(), id, geometry_.size}; }
 
@@ -88,7 +91,8 @@ class Labels {
   struct Run;
   [[nodiscard]] Status check(const std::vector<Label>& list, const std::vector<std::uint8_t>& voxels) const;
   [[nodiscard]] Status check(const std::vector<Label>& list, const LabelRegion& wanted) const;
-  Result<Acceptance> give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, bool replace);
+  enum class Giving { replaces, adds, erases };
+  Result<Acceptance> give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, Giving giving);
   void add_runs(const Region& region, std::uint8_t after, const std::array<bool, 256>& free,
                 Acceptance& acceptance, std::vector<Run>& runs) const;
   void put(const Run& run, std::uint8_t Run::*side);

@@ -141,6 +141,8 @@ class CaseProxy : public QObject {
   // With `within_mm` the label is refined: the surface stays that near to it.
   // The labels become those regions. As a tool makes them: see label_finisher().
   void finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions, document::Take take);
+  // A stroke of the brush: one entry of the history.
+  void brush_label(document::LabelRegion stroke, document::Labels::Stroke what, document::Take take);
   [[nodiscard]] LabelFinisher& label_finisher() { return *label_finisher_; }
   void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 

@@ -54,6 +54,13 @@ void CaseProxy::finish_labels(std::shared_ptr<const std::vector<document::LabelR
   });
 }
 
+void CaseProxy::brush_label(document::LabelRegion stroke, document::Labels::Stroke what,
+                            document::Take take) {
+  post([stroke = std::move(stroke), what, take](CaseRunner& runner, const Progress&) {
+    return runner.report_acceptance(runner.document().labels().brush(stroke, what, take));
+  });
+}
+
 void CaseProxy::begin_from_label(std::uint8_t label, std::optional<double> within_mm, int levels) {
   post([label, within_mm, levels](CaseRunner& runner, const Progress&) {
     runner.set_playing(false);

@@ -50,6 +50,8 @@ QString change_text(const document::ChangeDescription& change) {
       return tr("accept into %1").arg(name);
     case document::ChangeKind::finish:
       return tr("finishing of %1").arg(name);
+    case document::ChangeKind::label_brush:
+      return tr("brush on %1").arg(name);
   }
   return {};
 }

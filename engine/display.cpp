@@ -4,7 +4,7 @@ namespace tidemark::engine {
 
 bool has_right_button(Tool tool) {
   return tool == Tool::seed || tool == Tool::paint || tool == Tool::erase || tool == Tool::examples ||
-         tool == Tool::wall;
+         tool == Tool::wall || tool == Tool::label;
 }
 
 void Display::set(DisplaySettings next) {
@@ -36,6 +36,12 @@ void Display::set_drawn_sphere(std::optional<DrawnSphere> drawn) {
 void Display::set_drawn_marks(std::optional<DrawnMarks> drawn) {
   if (drawn == drawn_marks_) return;
   drawn_marks_ = std::move(drawn);
+  emit pointer_moved();
+}
+
+void Display::set_drawn_label(std::shared_ptr<const LabelPreview> drawn) {
+  if (drawn == drawn_label_) return;
+  drawn_label_ = std::move(drawn);
   emit pointer_moved();
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/result.h"
 #include "document/agreement.h"
+#include "engine/label_preview.h"
 #include "engine/measurement.h"
 #include "engine/shown_image.h"
 #include "renderer/views.h"
@@ -33,7 +34,10 @@ enum class Tool {
   examples,  // strokes: the left button inside, the right one outside
   wall,      // keeps the surface out; the right button takes walls and anchors away
   why,       // explains how the surface moves where it is clicked
+  label,     // paints a label; the right button takes away from it
 };
+inline constexpr int kTools = static_cast<int>(Tool::label) + 1;  // how many there are
+
 // Tools whose right button changes something, too.
 [[nodiscard]] bool has_right_button(Tool tool);
 
@@ -106,6 +110,14 @@ struct DrawnMarks {
   bool operator==(const DrawnMarks&) const = default;
 };
 
+// The label that the brush paints.
+struct LabelBrush {
+  std::uint8_t label = 0;  // 0, or one that is gone: the newest
+  document::Take take = document::Take::free_voxels;
+
+  bool operator==(const LabelBrush&) const = default;
+};
+
 class Display : public QObject {
   Q_OBJECT
  public:
@@ -129,6 +141,12 @@ class Display : public QObject {
   // So are marks.
   [[nodiscard]] const std::optional<DrawnMarks>& drawn_marks() const { return drawn_marks_; }
   void set_drawn_marks(std::optional<DrawnMarks> drawn);
+  // So is a stroke over a label; null: none.
+  [[nodiscard]] const std::shared_ptr<const LabelPreview>& drawn_label() const { return drawn_label_; }
+  void set_drawn_label(std::shared_ptr<const LabelPreview> drawn);
+  // It is not saved.
+  [[nodiscard]] const LabelBrush& label_brush() const { return label_brush_; }
+  void set_label_brush(const LabelBrush& brush) { label_brush_ = brush; }
   // What the runs of a sweep agree on, over the slices and all images; it is not saved.
   [[nodiscard]] const std::optional<ShownImage>& agreement() const { return agreement_; }
   void set_agreement(std::optional<ShownImage> agreement);
@@ -145,6 +163,8 @@ class Display : public QObject {
   std::optional<glm::dvec3> pointer_mm_;
   std::optional<DrawnSphere> drawn_sphere_;
   std::optional<DrawnMarks> drawn_marks_;
+  std::shared_ptr<const LabelPreview> drawn_label_;
+  LabelBrush label_brush_;
   std::optional<ShownImage> agreement_;
   std::shared_ptr<const document::Agreement> spread_;
 };

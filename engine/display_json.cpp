@@ -10,7 +10,6 @@ namespace tidemark::engine {
 namespace {
 
 constexpr double kFarthest = 1e6;  // mm: nothing in a patient is as far away
-constexpr int kTools = 12;
 constexpr std::size_t kMostImages = 64;
 constexpr JsonLimits kLimits{.bytes = std::size_t{16} << 20, .values = std::size_t{1} << 20};
 

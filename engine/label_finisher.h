@@ -4,22 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "document/label_tool.h"
 #include "engine/job_runner.h"
+#include "engine/label_preview.h"
 
 namespace tidemark::engine {
 
 class CaseProxy;
-
-// What a tool would make of labels.
-struct LabelPreview {
-  document::LabelToolUse use;
-  std::vector<std::uint8_t> labels;
-  document::LabelVoxels from;
-  std::vector<document::LabelRegion> regions;
-  double before_ml = 0.0;  // of those labels
-  double after_ml = 0.0;   // of all that they would become
-};
 
 class LabelFinisher : public JobRunner {
   Q_OBJECT

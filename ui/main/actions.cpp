@@ -176,6 +176,9 @@ void Actions::make_tools() {
        tr("Mark examples in slices: left button inside, right button outside, with Ctrl takes away"));
   tool(engine::Tool::wall, "tool-wall", "tool-wall", tr("Wa&ll"), "K",
        tr("Keep the surface out with a 3D brush; with Shift keep it in (right button: takes away)"));
+  tool(engine::Tool::label, "tool-label", "tool-label", tr("La&bel brush"), "Q",
+       tr("Paint the chosen label in slices; Shift: a ball, Ctrl: only like brightness (right button: takes "
+          "away)"));
   tool(engine::Tool::why, "tool-why", "tool-why", tr("Wh&y here?"), "Y",
        tr("Click on the surface to see why it moves or rests there; with Ctrl, just point at it"));
   last_tool = make("last-tool", nullptr, tr("Last &tool"), QKeySequence("Space"), true,

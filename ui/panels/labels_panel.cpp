@@ -35,6 +35,7 @@ LabelsPanel::LabelsPanel(QWidget* parent)
   add(tools_);
   connect(take_all_, &QCheckBox::toggled, this, [this](bool on) {
     tools_->set_take(on ? document::Take::others_too : document::Take::free_voxels);
+    show_brush();
   });
   connect(model_, &LabelsModel::edited, this, [this](const document::Label& label) {
     if (proxy()) proxy()->set_label(label);
@@ -97,6 +98,15 @@ QWidget* LabelsPanel::make_table_buttons() {
   };
   auto* add = make(tr("Add"), u"add", tr("Adds an empty label."));
   remove_ = make(tr("Remove"), u"remove", tr("Removes the chosen label and what it holds."));
+  brush_ = make(tr("Brush"), u"tool-label",
+                tr("Paints the chosen label, or a new one. Left button: adds. Right button: takes away. With "
+                   "Shift a ball "
+                   "through slices, with Ctrl only voxels as bright as the first one, within ε."));
+  brush_->setCheckable(true);
+  connect(brush_, &QToolButton::clicked, this, [this] {
+    if (proxy()) proxy()->display().choose_tool(engine::Tool::label);
+    show_brush();
+  });
   row->addStretch(1);
   connect(add, &QToolButton::clicked, this, &LabelsPanel::add_label);
   connect(remove_, &QToolButton::clicked, this, [this] {
@@ -238,10 +248,20 @@ void LabelsPanel::refresh() {
   show_buttons();
 }
 
+void LabelsPanel::show_brush() {
+  brush_->setChecked(proxy() && proxy()->display().settings().tool == engine::Tool::label);
+  if (!proxy()) return;
+  const document::Label* label = chosen();
+  proxy()->display().set_label_brush(
+      {label ? label->id : std::uint8_t{0},
+       take_all_->isChecked() ? document::Take::others_too : document::Take::free_voxels});
+}
+
 void LabelsPanel::show_buttons() {
   const document::Label* label = chosen();
   remove_->setEnabled(label != nullptr);
   tools_->set_labels(all_chosen());
+  show_brush();
   meaning_->show_label(label);
   const bool begun = proxy() && proxy()->state().begun;
   const bool locked = label && label->locked;

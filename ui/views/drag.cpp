@@ -4,6 +4,7 @@
 
 #include "engine/case_balance.h"
 #include "ui/views/edit_drags.h"
+#include "ui/views/label_drag.h"
 #include "ui/views/mark_drags.h"
 #include "ui/views/measure_drags.h"
 #include "ui/views/mouse_scheme.h"
@@ -97,6 +98,8 @@ std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer&
       return view.slab ? std::make_unique<ExampleDrag>(std::move(view), pressed) : nullptr;
     case engine::Tool::wall:
       return std::make_unique<ConstraintDrag>(std::move(view), pressed);
+    case engine::Tool::label:
+      return std::make_unique<LabelDrag>(std::move(view), pressed);
     case engine::Tool::why:
       return std::make_unique<WhyDrag>(std::move(view), pressed);
   }

@@ -24,8 +24,8 @@ solver::Constraint constraint_of(const Pointer& pressed) {
                                                        : solver::Constraint::wall;
 }
 
-// From one point to another, so near to each other that the discs or spheres make one stroke. The first point
-// is left out unless it is the only one.
+}  // namespace
+
 std::vector<glm::dvec3> way_between(glm::dvec3 from_mm, glm::dvec3 to_mm, double stride_mm) {
   const auto strides = static_cast<int>(std::ceil(glm::distance(from_mm, to_mm) / stride_mm));
   if (strides == 0) return {to_mm};
@@ -34,8 +34,6 @@ std::vector<glm::dvec3> way_between(glm::dvec3 from_mm, glm::dvec3 to_mm, double
     way.push_back(glm::mix(from_mm, to_mm, static_cast<double>(stride) / strides));
   return way;
 }
-
-}  // namespace
 
 ExampleDrag::ExampleDrag(DragView view, const Pointer& pressed)
     : Drag(std::move(view)),

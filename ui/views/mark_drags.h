@@ -50,6 +50,10 @@ class ConstraintDrag : public Drag {
     const solver::Constraints* constraints, const Geometry& geometry,
     const std::vector<solver::Sphere>& spheres, solver::Constraint what);
 
+// From one point to another, so near to each other that discs or spheres make one stroke. The first point is
+// left out unless it is the only one.
+[[nodiscard]] std::vector<glm::dvec3> way_between(glm::dvec3 from_mm, glm::dvec3 to_mm, double stride_mm);
+
 // What is still missing before examples can drive the surface; empty: nothing.
 [[nodiscard]] QString missing_examples(const solver::Strokes* strokes);
 

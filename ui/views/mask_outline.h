@@ -5,7 +5,7 @@
 #include <QList>
 
 #include "core/volume.h"
-#include "engine/label_finisher.h"
+#include "engine/label_preview.h"
 #include "renderer/camera.h"
 #include "solver/field.h"
 

@@ -42,6 +42,7 @@ Qt::CursorShape cursor_for(engine::Tool tool) {
     case engine::Tool::profile:
     case engine::Tool::examples:
     case engine::Tool::wall:
+    case engine::Tool::label:
       return Qt::CrossCursor;
     case engine::Tool::why:
       return Qt::WhatsThisCursor;
@@ -339,7 +340,8 @@ void PictureView::find_place(QPointF position, std::function<void(std::optional<
 void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
   const engine::Tool tool = settings().tool;
   // Dots are painted one quickly after the other.
-  if (tool == engine::Tool::examples || tool == engine::Tool::wall) return mousePressEvent(event);
+  if (tool == engine::Tool::examples || tool == engine::Tool::wall || tool == engine::Tool::label)
+    return mousePressEvent(event);
   if (event->button() == Qt::LeftButton && !engine::has_right_button(tool)) emit maximise_wanted();
 }
 

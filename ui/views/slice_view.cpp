@@ -1,4 +1,5 @@
 #include "ui/views/slice_view.h"
+#include "engine/label_finisher.h"
 
 #include <algorithm>
 #include <cmath>
@@ -327,6 +328,8 @@ void SliceViewWidget::paint_preview(QPainter& painter, const SliceScreen& on_scr
   if (content_ != renderer::SliceContent::source) return;
   preview_outline_.paint(painter, proxy().label_finisher().preview(), orientation(), settings().cursor_mm,
                          on_screen, kPreviewColour);
+  stroke_outline_.paint(painter, display().drawn_label(), orientation(), settings().cursor_mm, on_screen,
+                        kPreviewColour);
 }
 
 engine::DrawnMarks SliceViewWidget::marks() const {

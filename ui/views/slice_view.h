@@ -70,7 +70,8 @@ class SliceViewWidget : public PictureView {
   renderer::SliceContent content_;
   SliceOutline<Mask> truth_outline_;
   SliceOutline<solver::Field> compared_outline_;
-  SliceOutline<engine::LabelPreview> preview_outline_;
+  SliceOutline<engine::LabelPreview> preview_outline_;  // of a tool for labels
+  SliceOutline<engine::LabelPreview> stroke_outline_;   // of their brush
   MarksOverlay marks_overlay_;
   engine::DrawnMarks marks_;     // as of the last state
   mutable ImageOverlay images_;  // asked for when a picture is

@@ -20,6 +20,7 @@ class FinishLabelsStoryTest : public QObject {
  private slots:
   void a_label_grows_is_smoothed_and_split();
   void a_tool_works_on_the_case_that_is_seen();
+  void the_brush_paints_the_chosen_label_and_no_other();
 
  private:
   template <class Widget>
@@ -141,6 +142,65 @@ void FinishLabelsStoryTest::a_tool_works_on_the_case_that_is_seen() {
   QCOMPARE(seen<QComboBox>(panel, "Tool")->currentText(), QString("None"));
   QVERIFY(!first->proxy().label_finisher().preview());
   QVERIFY(!desktop.proxy().label_finisher().preview());
+}
+
+void FinishLabelsStoryTest::the_brush_paints_the_chosen_label_and_no_other() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  const glm::dvec3 seed = desktop.seed_mm();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  // By its key, without the panel: the first stroke makes a label, the next one goes on with it.
+  desktop.press(Qt::Key_Q);
+  QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::label);
+  desktop.drag(*axial, {seed, seed + glm::dvec3(10.0, 0.0, 0.0)});
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region first = region(desktop, 1);
+  QVERIFY(first.count() > 100);
+  QCOMPARE(first.bounds().high.z - first.bounds().low.z, std::int64_t{1});  // one slice
+  desktop.drag(*axial, {seed + glm::dvec3(0.0, 14.0, 0.0)}, Qt::LeftButton, Qt::ShiftModifier);
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region with_ball = region(desktop, 1);
+  QVERIFY(with_ball.bounds().high.z - with_ball.bounds().low.z > 8);  // 5 mm to either side
+  QVERIFY(difference(first, with_ball).empty());
+  QCOMPARE(desktop.state().undo_text, QString("brush on Label 1"));
+  desktop.screenshot("brush-0-label");
+
+  // Another label leaves its voxels alone, and takes away from itself only.
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  click(desktop, panel, "Add");
+  click(desktop, panel, "Brush");
+  desktop.drag(*axial, {seed, seed + glm::dvec3(0.0, 10.0, 0.0)});
+  desktop.wait_until_idle();
+  const Region second = region(desktop, 2);
+  QVERIFY(second.count() > 0);
+  QVERIFY(region(desktop, 1) == with_ball);
+  desktop.drag(*axial, {seed - glm::dvec3(8.0, 0.0, 0.0), seed + glm::dvec3(8.0, 10.0, 0.0)},
+               Qt::RightButton);
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == with_ball);
+  QVERIFY(region(desktop, 2).count() < second.count());
+  desktop.screenshot("brush-1-second");
+
+  // With Ctrl only what is as bright as the first voxel: the ball's own voxels, and none of the background.
+  const Volume& volume = desktop.proxy().volume();
+  click(desktop, panel, "Add");
+  desktop.drag(*axial, {seed - glm::dvec3(16.0, 0.0, 0.0), seed - glm::dvec3(26.0, 0.0, 0.0)}, Qt::LeftButton,
+               Qt::ControlModifier);
+  desktop.wait_until_idle();
+  const Region like = region(desktop, 3);
+  QVERIFY(like.count() > 0);
+  const float inside = volume.value(Index3(glm::round(volume.geometry.to_voxel(seed))));
+  like.for_each_run([&](Index3 voxel, std::int64_t length) {
+    for (std::int64_t i = 0; i < length; ++i)
+      QVERIFY(std::abs(volume.value(voxel + Index3(i, 0, 0)) - inside) < 200.0F);
+  });
+  for (int stroke = 0; stroke < 3; ++stroke) {
+    desktop.press(Qt::Key_Z, Qt::ControlModifier);
+    desktop.wait_until_idle();
+  }
+  QVERIFY(region(desktop, 2) == second);
 }
 
 }  // namespace tidemark::test
