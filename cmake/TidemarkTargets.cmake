@@ -20,6 +20,10 @@ endfunction()
 
 # A test's time goes into what it tests: its own code is compiled quickly.
 set(TIDEMARK_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+if(CMAKE_UNITY_BUILD)
+  # In a joined file a test's own types seem to be of a header.
+  list(APPEND TIDEMARK_TEST_OPTIONS $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
+endif()
 
 # A target that is nothing but these headers, read once for all the targets that take them over.
 #   tidemark_headers(target [OPTIONS compiler's option...] LINKS lib... HEADERS header...)

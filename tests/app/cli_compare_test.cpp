@@ -11,8 +11,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_compare_test {
 
 namespace {
 
@@ -194,4 +193,7 @@ class CliCompareTest : public QObject {
 };
 
 TIDEMARK_TEST(CliCompareTest)
+
+}  // namespace tidemark::test::cli_compare_test
+
 #include "cli_compare_test.moc"

@@ -10,8 +10,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_failure_test {
 
 class CliFailureTest : public QObject {
   Q_OBJECT
@@ -286,4 +285,7 @@ void CliFailureTest::without_opengl_gl_ends_with_4_and_the_processor_computes_an
 }
 
 TIDEMARK_TEST(CliFailureTest)
+
+}  // namespace tidemark::test::cli_failure_test
+
 #include "cli_failure_test.moc"

@@ -10,8 +10,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_files_test {
 
 class CliFilesTest : public QObject {
   Q_OBJECT
@@ -172,4 +171,7 @@ void CliFilesTest::pictures_are_drawn_from_masks_and_fields() {
 }
 
 TIDEMARK_TEST(CliFilesTest)
+
+}  // namespace tidemark::test::cli_files_test
+
 #include "cli_files_test.moc"

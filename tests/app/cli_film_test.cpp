@@ -6,8 +6,7 @@
 #include "tests/app/cli_runner.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_film_test {
 
 namespace {
 
@@ -129,4 +128,7 @@ class CliFilmTest : public QObject {
 };
 
 TIDEMARK_TEST(CliFilmTest)
+
+}  // namespace tidemark::test::cli_film_test
+
 #include "cli_film_test.moc"

@@ -13,8 +13,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_interrupt_test {
 
 namespace {
 
@@ -187,4 +186,7 @@ void CliInterruptTest::every_command_ends_within_a_second() {
 }
 
 TIDEMARK_TEST(CliInterruptTest)
+
+}  // namespace tidemark::test::cli_interrupt_test
+
 #include "cli_interrupt_test.moc"

@@ -6,8 +6,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_lesson_test {
 
 namespace {
 
@@ -103,4 +102,7 @@ class CliLessonTest : public QObject {
 };
 
 TIDEMARK_TEST(CliLessonTest)
+
+}  // namespace tidemark::test::cli_lesson_test
+
 #include "cli_lesson_test.moc"

@@ -13,8 +13,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_pacs_test {
 
 class CliPacsTest : public QObject {
   Q_OBJECT
@@ -184,4 +183,7 @@ class CliPacsTest : public QObject {
 };
 
 TIDEMARK_TEST(CliPacsTest)
+
+}  // namespace tidemark::test::cli_pacs_test
+
 #include "cli_pacs_test.moc"

@@ -8,8 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_recipe_test {
 
 namespace {
 
@@ -172,4 +171,7 @@ class CliRecipeTest : public QObject {
 };
 
 TIDEMARK_TEST(CliRecipeTest)
+
+}  // namespace tidemark::test::cli_recipe_test
+
 #include "cli_recipe_test.moc"

@@ -12,8 +12,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_results_test {
 
 class CliResultsTest : public QObject {
   Q_OBJECT
@@ -268,4 +267,7 @@ void CliResultsTest::a_kill_leaves_the_old_file_or_the_new_one() {
 }
 
 TIDEMARK_TEST(CliResultsTest)
+
+}  // namespace tidemark::test::cli_results_test
+
 #include "cli_results_test.moc"

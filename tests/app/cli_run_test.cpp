@@ -8,8 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_run_test {
 
 class CliRunTest : public QObject {
   Q_OBJECT
@@ -263,4 +262,7 @@ void CliRunTest::bench_prints_its_figures() {
 }
 
 TIDEMARK_TEST(CliRunTest)
+
+}  // namespace tidemark::test::cli_run_test
+
 #include "cli_run_test.moc"

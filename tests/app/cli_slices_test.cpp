@@ -6,8 +6,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_slices_test {
 
 class CliSlicesTest : public QObject {
   Q_OBJECT
@@ -88,4 +87,7 @@ class CliSlicesTest : public QObject {
 };
 
 TIDEMARK_TEST(CliSlicesTest)
+
+}  // namespace tidemark::test::cli_slices_test
+
 #include "cli_slices_test.moc"

@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_speed_failure_test {
 
 class CliSpeedFailureTest : public QObject {
   Q_OBJECT
@@ -106,4 +105,7 @@ void CliSpeedFailureTest::what_is_wrong_is_one_line() {
 }
 
 TIDEMARK_TEST(CliSpeedFailureTest)
+
+}  // namespace tidemark::test::cli_speed_failure_test
+
 #include "cli_speed_failure_test.moc"

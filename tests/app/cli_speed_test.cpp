@@ -9,8 +9,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_speed_test {
 
 class CliSpeedTest : public QObject {
   Q_OBJECT
@@ -268,4 +267,7 @@ void CliSpeedTest::doubt_is_a_picture_of_its_own() {
 }
 
 TIDEMARK_TEST(CliSpeedTest)
+
+}  // namespace tidemark::test::cli_speed_test
+
 #include "cli_speed_test.moc"

@@ -6,8 +6,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_start_test {
 
 class CliStartTest : public QObject {
   Q_OBJECT
@@ -138,4 +137,7 @@ void CliStartTest::an_automatic_start_says_what_it_chose() {
 }
 
 TIDEMARK_TEST(CliStartTest)
+
+}  // namespace tidemark::test::cli_start_test
+
 #include "cli_start_test.moc"

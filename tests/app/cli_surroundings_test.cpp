@@ -6,8 +6,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_surroundings_test {
 
 class CliSurroundingsTest : public QObject {
   Q_OBJECT
@@ -77,4 +76,7 @@ void CliSurroundingsTest::a_german_locale_changes_nothing() {
 }
 
 TIDEMARK_TEST(CliSurroundingsTest)
+
+}  // namespace tidemark::test::cli_surroundings_test
+
 #include "cli_surroundings_test.moc"

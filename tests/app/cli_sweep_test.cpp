@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_sweep_test {
 
 class CliSweepTest : public QObject {
   Q_OBJECT
@@ -120,4 +119,7 @@ void CliSweepTest::too_little_memory_ends_with_4() {
 }
 
 TIDEMARK_TEST(CliSweepTest)
+
+}  // namespace tidemark::test::cli_sweep_test
+
 #include "cli_sweep_test.moc"

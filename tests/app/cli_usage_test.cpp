@@ -6,8 +6,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::cli_usage_test {
 
 class CliUsageTest : public QObject {
   Q_OBJECT
@@ -242,4 +241,7 @@ void CliUsageTest::the_program_links_no_qt() {
 }
 
 TIDEMARK_TEST(CliUsageTest)
+
+}  // namespace tidemark::test::cli_usage_test
+
 #include "cli_usage_test.moc"

@@ -8,7 +8,7 @@
 
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::diagnostics_test {
 
 namespace {
 
@@ -103,4 +103,7 @@ class DiagnosticsTest : public QObject {
 };
 
 TIDEMARK_TEST(DiagnosticsTest)
+
+}  // namespace tidemark::test::diagnostics_test
+
 #include "diagnostics_test.moc"

@@ -19,7 +19,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::core_test {
+
 using tidemark::test::failure;
 using tidemark::test::TemporaryFolder;
 
@@ -341,4 +342,7 @@ class CoreTest : public QObject {
 };
 
 TIDEMARK_TEST(CoreTest)
+
+}  // namespace tidemark::test::core_test
+
 #include "core_test.moc"

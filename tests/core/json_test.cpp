@@ -5,8 +5,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::json_test {
 
 namespace {
 
@@ -195,4 +194,7 @@ class JsonTest : public QObject {
 };
 
 TIDEMARK_TEST(JsonTest)
+
+}  // namespace tidemark::test::json_test
+
 #include "json_test.moc"

@@ -9,7 +9,7 @@
 
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::label_colour_test {
 
 namespace {
 
@@ -66,4 +66,7 @@ class LabelColourTest : public QObject {
 };
 
 TIDEMARK_TEST(LabelColourTest)
+
+}  // namespace tidemark::test::label_colour_test
+
 #include "label_colour_test.moc"

@@ -10,8 +10,7 @@
 #include "document/session_file.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::autosave_test {
 
 namespace {
 
@@ -210,4 +209,7 @@ class AutosaveTest : public QObject {
 };
 
 TIDEMARK_TEST(AutosaveTest)
+
+}  // namespace tidemark::test::autosave_test
+
 #include "autosave_test.moc"

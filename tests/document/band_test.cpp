@@ -4,8 +4,7 @@
 #include "document/session_file.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::band_test {
 
 namespace {
 
@@ -139,4 +138,7 @@ class BandTest : public QObject {
 };
 
 TIDEMARK_TEST(BandTest)
+
+}  // namespace tidemark::test::band_test
+
 #include "band_test.moc"

@@ -6,8 +6,7 @@
 #include "solver/coarse_grid.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::coarse_levels_test {
 
 namespace {
 
@@ -261,4 +260,7 @@ class CoarseLevelsTest : public QObject {
 };
 
 TIDEMARK_TEST(CoarseLevelsTest)
+
+}  // namespace tidemark::test::coarse_levels_test
+
 #include "coarse_levels_test.moc"

@@ -5,7 +5,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::curve_test {
 
 namespace {
 
@@ -93,4 +93,7 @@ class CurveTest : public QObject {
 };
 
 TIDEMARK_TEST(CurveTest)
+
+}  // namespace tidemark::test::curve_test
+
 #include "curve_test.moc"

@@ -10,8 +10,8 @@
 #include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::drive_recipe_test {
+
 using Json = nlohmann::json;
 
 namespace {
@@ -370,4 +370,7 @@ class DriveRecipeTest : public QObject {
 };
 
 TIDEMARK_TEST(DriveRecipeTest)
+
+}  // namespace tidemark::test::drive_recipe_test
+
 #include "drive_recipe_test.moc"

@@ -5,8 +5,7 @@
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::drive_test {
 
 class DriveTest : public QObject {
   Q_OBJECT
@@ -134,4 +133,7 @@ class DriveTest : public QObject {
 };
 
 TIDEMARK_TEST(DriveTest)
+
+}  // namespace tidemark::test::drive_test
+
 #include "drive_test.moc"

@@ -2,8 +2,7 @@
 #include "cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::gesture_test {
 
 class GestureTest : public QObject {
   Q_OBJECT
@@ -69,4 +68,7 @@ class GestureTest : public QObject {
 };
 
 TIDEMARK_TEST(GestureTest)
+
+}  // namespace tidemark::test::gesture_test
+
 #include "gesture_test.moc"

@@ -12,8 +12,8 @@
 #include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::history_session_test {
+
 using Json = nlohmann::json;
 
 namespace {
@@ -271,4 +271,7 @@ class HistorySessionTest : public QObject {
 };
 
 TIDEMARK_TEST(HistorySessionTest)
+
+}  // namespace tidemark::test::history_session_test
+
 #include "history_session_test.moc"

@@ -4,8 +4,7 @@
 #include "cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::history_test {
 
 namespace {
 
@@ -284,4 +283,7 @@ class HistoryTest : public QObject {
 };
 
 TIDEMARK_TEST(HistoryTest)
+
+}  // namespace tidemark::test::history_test
+
 #include "history_test.moc"

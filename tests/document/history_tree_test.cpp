@@ -8,8 +8,7 @@
 #include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::history_tree_test {
 
 namespace {
 
@@ -270,4 +269,7 @@ class HistoryTreeTest : public QObject {
 };
 
 TIDEMARK_TEST(HistoryTreeTest)
+
+}  // namespace tidemark::test::history_tree_test
+
 #include "history_tree_test.moc"

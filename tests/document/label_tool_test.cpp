@@ -6,8 +6,8 @@
 #include "solver/model.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::label_tool_test {
+
 using document::LabelTool;
 
 namespace {
@@ -212,4 +212,7 @@ class LabelToolTest : public QObject {
 };
 
 TIDEMARK_TEST(LabelToolTest)
+
+}  // namespace tidemark::test::label_tool_test
+
 #include "label_tool_test.moc"

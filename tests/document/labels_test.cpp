@@ -9,8 +9,7 @@
 #include "solver/model.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::labels_test {
 
 namespace {
 
@@ -284,4 +283,7 @@ class LabelsTest : public QObject {
 };
 
 TIDEMARK_TEST(LabelsTest)
+
+}  // namespace tidemark::test::labels_test
+
 #include "labels_test.moc"

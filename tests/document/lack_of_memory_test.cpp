@@ -70,8 +70,7 @@ void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
   std::free(memory);
 }
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::lack_of_memory_test {
 
 namespace {
 
@@ -247,4 +246,7 @@ class LackOfMemoryTest : public QObject {
 };
 
 TIDEMARK_TEST(LackOfMemoryTest)
+
+}  // namespace tidemark::test::lack_of_memory_test
+
 #include "lack_of_memory_test.moc"

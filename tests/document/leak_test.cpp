@@ -6,8 +6,7 @@
 #include "tests/document/lobes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::leak_test {
 
 namespace {
 
@@ -181,4 +180,7 @@ class LeakTest : public QObject {
 };
 
 TIDEMARK_TEST(LeakTest)
+
+}  // namespace tidemark::test::leak_test
+
 #include "leak_test.moc"

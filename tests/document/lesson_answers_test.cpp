@@ -6,8 +6,8 @@
 #include "tests/document/lessons.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::lesson_answers_test {
+
 using Json = nlohmann::json;
 
 class LessonAnswersTest : public QObject {
@@ -86,4 +86,7 @@ class LessonAnswersTest : public QObject {
 };
 
 TIDEMARK_TEST(LessonAnswersTest)
+
+}  // namespace tidemark::test::lesson_answers_test
+
 #include "lesson_answers_test.moc"

@@ -6,8 +6,7 @@
 #include "document/recovery_folder.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::lesson_copy_test {
 
 namespace {
 
@@ -114,4 +113,7 @@ class LessonCopyTest : public QObject {
 };
 
 TIDEMARK_TEST(LessonCopyTest)
+
+}  // namespace tidemark::test::lesson_copy_test
+
 #include "lesson_copy_test.moc"

@@ -7,8 +7,7 @@
 #include "imaging/phantom/phantom.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::lesson_page_test {
 
 namespace {
 
@@ -69,4 +68,7 @@ class LessonPageTest : public QObject {
 };
 
 TIDEMARK_TEST(LessonPageTest)
+
+}  // namespace tidemark::test::lesson_page_test
+
 #include "lesson_page_test.moc"

@@ -8,8 +8,8 @@
 #include "tests/document/lessons.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::lesson_run_test {
+
 using Json = nlohmann::json;
 
 namespace {
@@ -166,4 +166,7 @@ class LessonRunTest : public QObject {
 };
 
 TIDEMARK_TEST(LessonRunTest)
+
+}  // namespace tidemark::test::lesson_run_test
+
 #include "lesson_run_test.moc"

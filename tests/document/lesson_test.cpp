@@ -5,8 +5,8 @@
 #include "tests/document/lessons.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::lesson_test {
+
 using Json = nlohmann::json;
 
 class LessonTest : public QObject {
@@ -238,4 +238,7 @@ void LessonTest::a_bad_lesson_is_refused_with_its_field() {
 }
 
 TIDEMARK_TEST(LessonTest)
+
+}  // namespace tidemark::test::lesson_test
+
 #include "lesson_test.moc"

@@ -3,8 +3,7 @@
 #include "gpu/device.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::other_executor_test {
 
 class OtherExecutorTest : public QObject {
   Q_OBJECT
@@ -77,4 +76,7 @@ class OtherExecutorTest : public QObject {
 };
 
 TIDEMARK_TEST(OtherExecutorTest)
+
+}  // namespace tidemark::test::other_executor_test
+
 #include "other_executor_test.moc"

@@ -11,8 +11,7 @@
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::outcome_test {
 
 namespace {
 
@@ -191,4 +190,7 @@ class OutcomeTest : public QObject {
 };
 
 TIDEMARK_TEST(OutcomeTest)
+
+}  // namespace tidemark::test::outcome_test
+
 #include "outcome_test.moc"

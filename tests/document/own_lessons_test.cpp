@@ -3,8 +3,7 @@
 #include "document/lesson_run.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::own_lessons_test {
 
 namespace {
 
@@ -96,4 +95,7 @@ class OwnLessonsTest : public QObject {
 };
 
 TIDEMARK_TEST(OwnLessonsTest)
+
+}  // namespace tidemark::test::own_lessons_test
+
 #include "own_lessons_test.moc"

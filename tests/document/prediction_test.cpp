@@ -8,8 +8,8 @@
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::prediction_test {
+
 using document::Prediction;
 
 namespace {
@@ -261,4 +261,7 @@ class PredictionTest : public QObject {
 };
 
 TIDEMARK_TEST(PredictionTest)
+
+}  // namespace tidemark::test::prediction_test
+
 #include "prediction_test.moc"

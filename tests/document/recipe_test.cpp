@@ -10,8 +10,8 @@
 #include "tests/document/recipes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::recipe_test {
+
 using Json = nlohmann::json;
 
 namespace {
@@ -360,4 +360,7 @@ class RecipeTest : public QObject {
 };
 
 TIDEMARK_TEST(RecipeTest)
+
+}  // namespace tidemark::test::recipe_test
+
 #include "recipe_test.moc"

@@ -10,8 +10,7 @@
 #include "solver/distance_transform.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::segment_meshes_test {
 
 namespace {
 
@@ -151,4 +150,7 @@ class SegmentMeshesTest : public QObject {
 };
 
 TIDEMARK_TEST(SegmentMeshesTest)
+
+}  // namespace tidemark::test::segment_meshes_test
+
 #include "segment_meshes_test.moc"

@@ -8,8 +8,7 @@
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::session_images_test {
 
 namespace {
 
@@ -205,4 +204,7 @@ class SessionImagesTest : public QObject {
 };
 
 TIDEMARK_TEST(SessionImagesTest)
+
+}  // namespace tidemark::test::session_images_test
+
 #include "session_images_test.moc"

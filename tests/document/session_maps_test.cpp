@@ -7,8 +7,7 @@
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::session_maps_test {
 
 namespace {
 
@@ -165,4 +164,7 @@ class SessionMapsTest : public QObject {
 };
 
 TIDEMARK_TEST(SessionMapsTest)
+
+}  // namespace tidemark::test::session_maps_test
+
 #include "session_maps_test.moc"

@@ -14,8 +14,8 @@
 #include "tests/support/child_process.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::session_test {
+
 using Json = nlohmann::json;
 
 namespace {
@@ -389,4 +389,7 @@ class SessionTest : public QObject {
 };
 
 TIDEMARK_TEST(SessionTest)
+
+}  // namespace tidemark::test::session_test
+
 #include "session_test.moc"

@@ -6,8 +6,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::speed_map_test {
 
 namespace {
 
@@ -78,4 +77,7 @@ class SpeedMapTest : public QObject {
 };
 
 TIDEMARK_TEST(SpeedMapTest)
+
+}  // namespace tidemark::test::speed_map_test
+
 #include "speed_map_test.moc"

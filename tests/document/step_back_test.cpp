@@ -2,8 +2,7 @@
 #include "cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::step_back_test {
 
 class StepBackTest : public QObject {
   Q_OBJECT
@@ -96,4 +95,7 @@ class StepBackTest : public QObject {
 };
 
 TIDEMARK_TEST(StepBackTest)
+
+}  // namespace tidemark::test::step_back_test
+
 #include "step_back_test.moc"

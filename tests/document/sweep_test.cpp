@@ -11,8 +11,7 @@
 #include "solver/speed/motion_limit.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::sweep_test {
 
 namespace {
 
@@ -373,4 +372,7 @@ class SweepTest : public QObject {
 };
 
 TIDEMARK_TEST(SweepTest)
+
+}  // namespace tidemark::test::sweep_test
+
 #include "sweep_test.moc"

@@ -5,8 +5,7 @@
 #include "solver/inside_region.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::taken_run_test {
 
 namespace {
 
@@ -170,4 +169,7 @@ class TakenRunTest : public QObject {
 };
 
 TIDEMARK_TEST(TakenRunTest)
+
+}  // namespace tidemark::test::taken_run_test
+
 #include "taken_run_test.moc"

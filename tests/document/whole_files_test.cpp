@@ -26,7 +26,8 @@
 #include "tests/support/child_process.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::whole_files_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -351,4 +352,7 @@ class WholeFilesTest : public QObject {
 };
 
 TIDEMARK_TEST(WholeFilesTest)
+
+}  // namespace tidemark::test::whole_files_test
+
 #include "whole_files_test.moc"

@@ -9,7 +9,8 @@
 
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::background_job_test {
+
 using namespace std::chrono_literals;
 
 namespace {
@@ -85,4 +86,7 @@ class BackgroundJobTest : public QObject {
 };
 
 TIDEMARK_TEST(BackgroundJobTest)
+
+}  // namespace tidemark::test::background_job_test
+
 #include "background_job_test.moc"

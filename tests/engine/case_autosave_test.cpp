@@ -15,7 +15,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::case_autosave_test {
+
 using namespace std::chrono_literals;
 
 namespace {
@@ -131,4 +132,7 @@ class CaseAutosaveTest : public QObject {
 };
 
 TIDEMARK_TEST(CaseAutosaveTest)
+
+}  // namespace tidemark::test::case_autosave_test
+
 #include "case_autosave_test.moc"

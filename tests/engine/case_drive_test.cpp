@@ -7,7 +7,7 @@
 #include "tests/engine/ball_case.h"
 #include "tests/support/test_program.h"
 
-namespace tidemark::test {
+namespace tidemark::test::case_drive_test {
 
 class CaseDriveTest : public QObject {
   Q_OBJECT
@@ -207,7 +207,8 @@ class CaseDriveTest : public QObject {
   engine::CaseProxy* proxy_ = nullptr;  // its
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(CaseDriveTest)
 
-TIDEMARK_TEST(tidemark::test::CaseDriveTest)
+}  // namespace tidemark::test::case_drive_test
+
 #include "case_drive_test.moc"

@@ -6,8 +6,7 @@
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::case_meter_test {
 
 namespace {
 
@@ -117,4 +116,7 @@ class CaseMeterTest : public QObject {
 };
 
 TIDEMARK_TEST(CaseMeterTest)
+
+}  // namespace tidemark::test::case_meter_test
+
 #include "case_meter_test.moc"

@@ -14,7 +14,7 @@
 #include "tests/engine/ball_case.h"
 #include "tests/support/test_program.h"
 
-namespace tidemark::test {
+namespace tidemark::test::case_proxy_test {
 namespace {
 
 constexpr int kPatience = 60000;  // ms
@@ -376,7 +376,8 @@ class CaseProxyTest : public QObject {
   }
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(CaseProxyTest)
 
-TIDEMARK_TEST(tidemark::test::CaseProxyTest)
+}  // namespace tidemark::test::case_proxy_test
+
 #include "case_proxy_test.moc"

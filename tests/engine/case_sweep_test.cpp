@@ -6,7 +6,7 @@
 #include "tests/engine/ball_case.h"
 #include "tests/support/test_program.h"
 
-namespace tidemark::test {
+namespace tidemark::test::case_sweep_test {
 
 class CaseSweepTest : public QObject {
   Q_OBJECT
@@ -82,7 +82,8 @@ class CaseSweepTest : public QObject {
   QStringList failures_;
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(CaseSweepTest)
 
-TIDEMARK_TEST(tidemark::test::CaseSweepTest)
+}  // namespace tidemark::test::case_sweep_test
+
 #include "case_sweep_test.moc"

@@ -3,9 +3,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::display_json_test {
 
 class DisplayJsonTest : public QObject {
   Q_OBJECT
@@ -28,7 +26,8 @@ class DisplayJsonTest : public QObject {
   }
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(DisplayJsonTest)
 
-TIDEMARK_TEST(tidemark::DisplayJsonTest)
+}  // namespace tidemark::test::display_json_test
+
 #include "display_json_test.moc"

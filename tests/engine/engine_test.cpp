@@ -10,7 +10,7 @@
 
 #include "tests/support/test_program.h"
 
-namespace tidemark {
+namespace tidemark::test::engine_test {
 namespace {
 
 // Holds the engine's thread until it is released, so that jobs wait behind it.
@@ -268,7 +268,8 @@ class EngineTest : public QObject {
   }
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(EngineTest)
 
-TIDEMARK_TEST(tidemark::EngineTest)
+}  // namespace tidemark::test::engine_test
+
 #include "engine_test.moc"

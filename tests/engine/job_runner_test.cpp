@@ -11,7 +11,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::job_runner_test {
+
 using namespace std::chrono_literals;
 
 namespace {
@@ -143,4 +144,7 @@ class JobRunnerTest : public QObject {
 };
 
 TIDEMARK_TEST(JobRunnerTest)
+
+}  // namespace tidemark::test::job_runner_test
+
 #include "job_runner_test.moc"

@@ -6,7 +6,7 @@
 
 #include "tests/support/test_program.h"
 
-namespace tidemark::test {
+namespace tidemark::test::joint_histogram_test {
 namespace {
 
 // Of 40 x 40 x 2 voxels: the first image rises along x, the second along y.
@@ -74,7 +74,8 @@ class JointHistogramTest : public QObject {
   }
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(JointHistogramTest)
 
-TIDEMARK_TEST(tidemark::test::JointHistogramTest)
+}  // namespace tidemark::test::joint_histogram_test
+
 #include "joint_histogram_test.moc"

@@ -10,7 +10,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::series_preview_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -142,4 +143,7 @@ class SeriesPreviewTest : public QObject {
 };
 
 TIDEMARK_TEST(SeriesPreviewTest)
+
+}  // namespace tidemark::test::series_preview_test
+
 #include "series_preview_test.moc"

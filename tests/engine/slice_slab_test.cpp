@@ -8,7 +8,9 @@
 #include "engine/stroke_painting.h"
 #include "tests/support/test_program.h"
 
-namespace tidemark::engine {
+namespace tidemark::test::slice_slab_test {
+
+using namespace engine;
 
 class SliceSlabTest : public QObject {
   Q_OBJECT
@@ -162,7 +164,8 @@ void SliceSlabTest::spheres_cover_the_strokes_and_start_inside() {
   QVERIFY(spheres_along(g, {}).empty());
 }
 
-}  // namespace tidemark::engine
+TIDEMARK_TEST(SliceSlabTest)
 
-TIDEMARK_TEST(tidemark::engine::SliceSlabTest)
+}  // namespace tidemark::test::slice_slab_test
+
 #include "slice_slab_test.moc"

@@ -7,7 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::source_summary_test {
 
 namespace {
 
@@ -129,4 +129,7 @@ class SourceSummaryTest : public QObject {
 };
 
 TIDEMARK_TEST(SourceSummaryTest)
+
+}  // namespace tidemark::test::source_summary_test
+
 #include "source_summary_test.moc"

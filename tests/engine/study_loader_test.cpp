@@ -9,7 +9,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::study_loader_test {
+
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
@@ -266,4 +267,7 @@ class StudyLoaderTest : public QObject {
 };
 
 TIDEMARK_TEST(StudyLoaderTest)
+
+}  // namespace tidemark::test::study_loader_test
+
 #include "study_loader_test.moc"

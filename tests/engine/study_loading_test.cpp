@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::study_loading_test {
 
 class StudyLoadingTest : public QObject {
   Q_OBJECT
@@ -65,4 +64,7 @@ class StudyLoadingTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(StudyLoadingTest)
+
+}  // namespace tidemark::test::study_loading_test
+
 #include "study_loading_test.moc"

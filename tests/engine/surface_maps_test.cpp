@@ -3,7 +3,7 @@
 
 #include "tests/support/test_program.h"
 
-namespace tidemark::test {
+namespace tidemark::test::surface_maps_test {
 namespace {
 
 // A ball around the middle of the grid.
@@ -73,7 +73,8 @@ class SurfaceMapsTest : public QObject {
   }
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(SurfaceMapsTest)
 
-TIDEMARK_TEST(tidemark::test::SurfaceMapsTest)
+}  // namespace tidemark::test::surface_maps_test
+
 #include "surface_maps_test.moc"

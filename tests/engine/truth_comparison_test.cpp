@@ -6,8 +6,7 @@
 #include "solver/distance_transform.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::truth_comparison_test {
 
 class TruthComparisonTest : public QObject {
   Q_OBJECT
@@ -55,4 +54,7 @@ class TruthComparisonTest : public QObject {
 };
 
 TIDEMARK_TEST(TruthComparisonTest)
+
+}  // namespace tidemark::test::truth_comparison_test
+
 #include "truth_comparison_test.moc"

@@ -4,8 +4,7 @@
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::truth_overlap_test {
 
 class TruthOverlapTest : public QObject {
   Q_OBJECT
@@ -66,4 +65,7 @@ class TruthOverlapTest : public QObject {
 };
 
 TIDEMARK_TEST(TruthOverlapTest)
+
+}  // namespace tidemark::test::truth_overlap_test
+
 #include "truth_overlap_test.moc"

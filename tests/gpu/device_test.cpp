@@ -7,7 +7,8 @@
 #include "gpu/texture.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::device_test {
+
 using namespace tidemark::gpu;
 
 namespace {
@@ -140,4 +141,7 @@ class DeviceTest : public QObject {
 };
 
 TIDEMARK_TEST(DeviceTest)
+
+}  // namespace tidemark::test::device_test
+
 #include "device_test.moc"

@@ -7,7 +7,8 @@
 #include "gpu/shader_source.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::shader_source_test {
+
 using namespace tidemark::gpu;
 
 namespace {
@@ -80,4 +81,7 @@ class ShaderSourceTest : public QObject {
 };
 
 TIDEMARK_TEST(ShaderSourceTest)
+
+}  // namespace tidemark::test::shader_source_test
+
 #include "shader_source_test.moc"

@@ -12,7 +12,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::load_study_test {
+
 namespace fs = std::filesystem;
 
 class LoadStudyTest : public QObject {
@@ -248,4 +249,7 @@ class LoadStudyTest : public QObject {
 };
 
 TIDEMARK_TEST(LoadStudyTest)
+
+}  // namespace tidemark::test::load_study_test
+
 #include "load_study_test.moc"

@@ -6,7 +6,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::onto_grid_test {
 
 namespace {
 
@@ -110,4 +110,7 @@ class OntoGridTest : public QObject {
 };
 
 TIDEMARK_TEST(OntoGridTest)
+
+}  // namespace tidemark::test::onto_grid_test
+
 #include "onto_grid_test.moc"

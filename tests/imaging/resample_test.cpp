@@ -8,7 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::resample_test {
 
 namespace {
 
@@ -136,4 +136,7 @@ class ResampleTest : public QObject {
 };
 
 TIDEMARK_TEST(ResampleTest)
+
+}  // namespace tidemark::test::resample_test
+
 #include "resample_test.moc"

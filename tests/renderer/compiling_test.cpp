@@ -8,8 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::compiling_test {
 
 namespace {
 
@@ -82,4 +81,7 @@ class CompilingTest : public QObject {
 };
 
 TIDEMARK_TEST(CompilingTest)
+
+}  // namespace tidemark::test::compiling_test
+
 #include "compiling_test.moc"

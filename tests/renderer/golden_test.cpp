@@ -14,8 +14,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::golden_test {
 
 namespace {
 
@@ -183,4 +182,7 @@ class GoldenTest : public QObject {
 };
 
 TIDEMARK_TEST(GoldenTest)
+
+}  // namespace tidemark::test::golden_test
+
 #include "golden_test.moc"

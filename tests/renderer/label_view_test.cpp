@@ -8,8 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::label_view_test {
 
 namespace {
 
@@ -274,4 +273,7 @@ class LabelViewTest : public QObject {
 };
 
 TIDEMARK_TEST(LabelViewTest)
+
+}  // namespace tidemark::test::label_view_test
+
 #include "label_view_test.moc"

@@ -9,8 +9,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::orientation_test {
 
 namespace {
 
@@ -176,4 +175,7 @@ class OrientationTest : public QObject {
 };
 
 TIDEMARK_TEST(OrientationTest)
+
+}  // namespace tidemark::test::orientation_test
+
 #include "orientation_test.moc"

@@ -6,8 +6,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::phi_picture_test {
 
 namespace {
 
@@ -198,4 +197,7 @@ class PhiPictureTest : public QObject {
 };
 
 TIDEMARK_TEST(PhiPictureTest)
+
+}  // namespace tidemark::test::phi_picture_test
+
 #include "phi_picture_test.moc"

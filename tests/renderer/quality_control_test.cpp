@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::quality_control_test {
 
 class QualityControlTest : public QObject {
   Q_OBJECT
@@ -123,4 +122,7 @@ class QualityControlTest : public QObject {
 };
 
 TIDEMARK_TEST(QualityControlTest)
+
+}  // namespace tidemark::test::quality_control_test
+
 #include "quality_control_test.moc"

@@ -9,8 +9,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::region_of_interest_test {
 
 namespace {
 
@@ -81,4 +80,7 @@ class RegionOfInterestTest : public QObject {
 };
 
 TIDEMARK_TEST(RegionOfInterestTest)
+
+}  // namespace tidemark::test::region_of_interest_test
+
 #include "region_of_interest_test.moc"

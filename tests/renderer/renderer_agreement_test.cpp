@@ -12,8 +12,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::renderer_agreement_test {
 
 namespace {
 
@@ -256,4 +255,7 @@ class RendererAgreementTest : public QObject {
 };
 
 TIDEMARK_TEST(RendererAgreementTest)
+
+}  // namespace tidemark::test::renderer_agreement_test
+
 #include "renderer_agreement_test.moc"

@@ -9,8 +9,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::slice_stack_test {
 
 namespace {
 
@@ -283,4 +282,7 @@ class SliceStackTest : public QObject {
 };
 
 TIDEMARK_TEST(SliceStackTest)
+
+}  // namespace tidemark::test::slice_stack_test
+
 #include "slice_stack_test.moc"

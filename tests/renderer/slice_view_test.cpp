@@ -8,8 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::slice_view_test {
 
 namespace {
 
@@ -363,4 +362,7 @@ class SliceViewTest : public QObject {
 };
 
 TIDEMARK_TEST(SliceViewTest)
+
+}  // namespace tidemark::test::slice_view_test
+
 #include "slice_view_test.moc"

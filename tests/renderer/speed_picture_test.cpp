@@ -8,8 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::speed_picture_test {
 
 namespace {
 
@@ -212,4 +211,7 @@ class SpeedPictureTest : public QObject {
 };
 
 TIDEMARK_TEST(SpeedPictureTest)
+
+}  // namespace tidemark::test::speed_picture_test
+
 #include "speed_picture_test.moc"

@@ -5,8 +5,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::transfer_function_test {
 
 class TransferFunctionTest : public QObject {
   Q_OBJECT
@@ -145,4 +144,7 @@ class TransferFunctionTest : public QObject {
 };
 
 TIDEMARK_TEST(TransferFunctionTest)
+
+}  // namespace tidemark::test::transfer_function_test
+
 #include "transfer_function_test.moc"

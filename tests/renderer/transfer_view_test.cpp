@@ -6,8 +6,7 @@
 #include "tests/renderer/scenes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::transfer_view_test {
 
 namespace {
 
@@ -154,4 +153,7 @@ class TransferViewTest : public QObject {
 };
 
 TIDEMARK_TEST(TransferViewTest)
+
+}  // namespace tidemark::test::transfer_view_test
+
 #include "transfer_view_test.moc"

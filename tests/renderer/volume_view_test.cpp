@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::volume_view_test {
 
 namespace {
 
@@ -318,4 +317,7 @@ class VolumeViewTest : public QObject {
 };
 
 TIDEMARK_TEST(VolumeViewTest)
+
+}  // namespace tidemark::test::volume_view_test
+
 #include "volume_view_test.moc"

@@ -10,8 +10,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::reference_compiler_test {
 
 namespace {
 
@@ -88,4 +87,7 @@ class ReferenceCompilerTest : public QObject {
 };
 
 TIDEMARK_TEST(ReferenceCompilerTest)
+
+}  // namespace tidemark::test::reference_compiler_test
+
 #include "reference_compiler_test.moc"

@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::agreement_test {
 
 namespace {
 
@@ -198,4 +197,7 @@ class AgreementTest : public QObject {
 };
 
 TIDEMARK_TEST(AgreementTest)
+
+}  // namespace tidemark::test::agreement_test
+
 #include "agreement_test.moc"

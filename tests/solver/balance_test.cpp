@@ -6,8 +6,7 @@
 #include "solver/speed/speed_registry.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::balance_test {
 
 namespace {
 
@@ -260,4 +259,7 @@ class BalanceTest : public QObject {
 };
 
 TIDEMARK_TEST(BalanceTest)
+
+}  // namespace tidemark::test::balance_test
+
 #include "balance_test.moc"

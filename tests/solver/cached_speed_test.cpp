@@ -7,7 +7,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::cached_speed_test {
+
 using namespace tidemark::solver;
 
 namespace {
@@ -208,4 +209,7 @@ class CachedSpeedTest : public QObject {
 };
 
 TIDEMARK_TEST(CachedSpeedTest)
+
+}  // namespace tidemark::test::cached_speed_test
+
 #include "cached_speed_test.moc"

@@ -11,8 +11,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::coarse_grid_test {
 
 namespace {
 
@@ -226,4 +225,7 @@ class CoarseGridTest : public QObject {
 };
 
 TIDEMARK_TEST(CoarseGridTest)
+
+}  // namespace tidemark::test::coarse_grid_test
+
 #include "coarse_grid_test.moc"

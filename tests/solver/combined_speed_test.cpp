@@ -7,9 +7,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::combined_speed_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -147,4 +147,7 @@ class CombinedSpeedTest : public QObject {
 };
 
 TIDEMARK_TEST(CombinedSpeedTest)
+
+}  // namespace tidemark::test::combined_speed_test
+
 #include "combined_speed_test.moc"

@@ -7,9 +7,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::constraints_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -235,4 +235,7 @@ class ConstraintsTest : public QObject {
 };
 
 TIDEMARK_TEST(ConstraintsTest)
+
+}  // namespace tidemark::test::constraints_test
+
 #include "constraints_test.moc"

@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::convergence_test {
 
 namespace {
 
@@ -247,4 +246,7 @@ class ConvergenceTest : public QObject {
 };
 
 TIDEMARK_TEST(ConvergenceTest)
+
+}  // namespace tidemark::test::convergence_test
+
 #include "convergence_test.moc"

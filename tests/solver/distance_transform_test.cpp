@@ -14,8 +14,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::distance_transform_test {
 
 namespace {
 
@@ -133,4 +132,7 @@ class DistanceTransformTest : public QObject {
 };
 
 TIDEMARK_TEST(DistanceTransformTest)
+
+}  // namespace tidemark::test::distance_transform_test
+
 #include "distance_transform_test.moc"

@@ -3,9 +3,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::edge_speed_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -199,4 +199,7 @@ class EdgeSpeedTest : public QObject {
 };
 
 TIDEMARK_TEST(EdgeSpeedTest)
+
+}  // namespace tidemark::test::edge_speed_test
+
 #include "edge_speed_test.moc"

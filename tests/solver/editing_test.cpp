@@ -3,8 +3,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::editing_test {
 
 namespace {
 
@@ -105,4 +104,7 @@ class EditingTest : public QObject {
 };
 
 TIDEMARK_TEST(EditingTest)
+
+}  // namespace tidemark::test::editing_test
+
 #include "editing_test.moc"

@@ -10,9 +10,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::examples_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -358,4 +358,7 @@ void ExamplesTest::a_pyramid_is_shared_and_goes_with_its_users() {
 }
 
 TIDEMARK_TEST(ExamplesTest)
+
+}  // namespace tidemark::test::examples_test
+
 #include "examples_test.moc"

@@ -8,8 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::executors_paging_test {
 
 namespace {
 
@@ -269,4 +268,7 @@ class ExecutorsPagingTest : public QObject {
 };
 
 TIDEMARK_TEST(ExecutorsPagingTest)
+
+}  // namespace tidemark::test::executors_paging_test
+
 #include "executors_paging_test.moc"

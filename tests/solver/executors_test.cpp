@@ -4,8 +4,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::executors_test {
 
 class ExecutorsTest : public QObject {
   Q_OBJECT
@@ -226,4 +225,7 @@ class ExecutorsTest : public QObject {
 };
 
 TIDEMARK_TEST(ExecutorsTest)
+
+}  // namespace tidemark::test::executors_test
+
 #include "executors_test.moc"

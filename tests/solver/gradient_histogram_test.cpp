@@ -7,8 +7,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::gradient_histogram_test {
+
 using solver::GradientHistogram;
 
 class GradientHistogramTest : public QObject {
@@ -103,4 +103,7 @@ class GradientHistogramTest : public QObject {
 };
 
 TIDEMARK_TEST(GradientHistogramTest)
+
+}  // namespace tidemark::test::gradient_histogram_test
+
 #include "gradient_histogram_test.moc"

@@ -3,9 +3,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::image_speed_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -106,4 +106,7 @@ class ImageSpeedTest : public QObject {
 };
 
 TIDEMARK_TEST(ImageSpeedTest)
+
+}  // namespace tidemark::test::image_speed_test
+
 #include "image_speed_test.moc"

@@ -4,8 +4,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::line_profile_test {
 
 class LineProfileTest : public QObject {
   Q_OBJECT
@@ -56,4 +55,7 @@ class LineProfileTest : public QObject {
 };
 
 TIDEMARK_TEST(LineProfileTest)
+
+}  // namespace tidemark::test::line_profile_test
+
 #include "line_profile_test.moc"

@@ -6,8 +6,7 @@
 #include "solver/inside_region.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::motion_test {
 
 namespace {
 
@@ -238,4 +237,7 @@ class MotionTest : public QObject {
 };
 
 TIDEMARK_TEST(MotionTest)
+
+}  // namespace tidemark::test::motion_test
+
 #include "motion_test.moc"

@@ -2,7 +2,7 @@
 #include "solver/convergence.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::motion_watch_test {
 
 namespace {
 
@@ -122,4 +122,7 @@ class MotionWatchTest : public QObject {
 };
 
 TIDEMARK_TEST(MotionWatchTest)
+
+}  // namespace tidemark::test::motion_watch_test
+
 #include "motion_watch_test.moc"

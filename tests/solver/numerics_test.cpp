@@ -10,8 +10,7 @@
 #include "solver/speed/curvature-inl.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::numerics_test {
 
 namespace {
 
@@ -354,4 +353,7 @@ class NumericsTest : public QObject {
 };
 
 TIDEMARK_TEST(NumericsTest)
+
+}  // namespace tidemark::test::numerics_test
+
 #include "numerics_test.moc"

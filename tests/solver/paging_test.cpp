@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::paging_test {
 
 namespace {
 
@@ -142,4 +141,7 @@ class PagingTest : public QObject {
 };
 
 TIDEMARK_TEST(PagingTest)
+
+}  // namespace tidemark::test::paging_test
+
 #include "paging_test.moc"

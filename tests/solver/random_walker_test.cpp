@@ -5,9 +5,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::random_walker_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -155,4 +155,7 @@ class RandomWalkerTest : public QObject {
 };
 
 TIDEMARK_TEST(RandomWalkerTest)
+
+}  // namespace tidemark::test::random_walker_test
+
 #include "random_walker_test.moc"

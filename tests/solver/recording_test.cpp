@@ -10,8 +10,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::recording_test {
+
 using solver::PassRecord;
 
 namespace {
@@ -271,4 +271,7 @@ class RecordingTest : public QObject {
 };
 
 TIDEMARK_TEST(RecordingTest)
+
+}  // namespace tidemark::test::recording_test
+
 #include "recording_test.moc"

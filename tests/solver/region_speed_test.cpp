@@ -3,9 +3,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::region_speed_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -266,4 +266,7 @@ class RegionSpeedTest : public QObject {
 };
 
 TIDEMARK_TEST(RegionSpeedTest)
+
+}  // namespace tidemark::test::region_speed_test
+
 #include "region_speed_test.moc"

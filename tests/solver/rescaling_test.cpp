@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::rescaling_test {
 
 namespace {
 
@@ -209,4 +208,7 @@ class RescalingTest : public QObject {
 };
 
 TIDEMARK_TEST(RescalingTest)
+
+}  // namespace tidemark::test::rescaling_test
+
 #include "rescaling_test.moc"

@@ -8,8 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::shared_pages_test {
 
 namespace {
 
@@ -167,4 +166,7 @@ class SharedPagesTest : public QObject {
 };
 
 TIDEMARK_TEST(SharedPagesTest)
+
+}  // namespace tidemark::test::shared_pages_test
+
 #include "shared_pages_test.moc"

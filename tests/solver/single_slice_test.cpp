@@ -6,8 +6,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::single_slice_test {
 
 namespace {
 
@@ -161,4 +160,7 @@ class SingleSliceTest : public QObject {
 };
 
 TIDEMARK_TEST(SingleSliceTest)
+
+}  // namespace tidemark::test::single_slice_test
+
 #include "single_slice_test.moc"

@@ -3,9 +3,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::speed_executors_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -61,8 +61,6 @@ SpeedSetting joined(const std::string& one, const std::string& other, Combine co
 
 }  // namespace
 
-Q_DECLARE_METATYPE(SpeedSetting)
-
 class SpeedExecutorsTest : public QObject {
   Q_OBJECT
 
@@ -94,4 +92,7 @@ class SpeedExecutorsTest : public QObject {
 };
 
 TIDEMARK_TEST(SpeedExecutorsTest)
+
+}  // namespace tidemark::test::speed_executors_test
+
 #include "speed_executors_test.moc"

@@ -5,8 +5,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::speed_function_test {
 
 namespace {
 
@@ -313,4 +312,7 @@ class SpeedFunctionTest : public QObject {
 };
 
 TIDEMARK_TEST(SpeedFunctionTest)
+
+}  // namespace tidemark::test::speed_function_test
+
 #include "speed_function_test.moc"

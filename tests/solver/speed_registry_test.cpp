@@ -5,9 +5,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::speed_registry_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -103,4 +103,7 @@ class SpeedRegistryTest : public QObject {
 };
 
 TIDEMARK_TEST(SpeedRegistryTest)
+
+}  // namespace tidemark::test::speed_registry_test
+
 #include "speed_registry_test.moc"

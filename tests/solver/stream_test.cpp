@@ -11,8 +11,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::stream_test {
 
 namespace {
 
@@ -356,4 +355,7 @@ class StreamTest : public QObject {
 };
 
 TIDEMARK_TEST(StreamTest)
+
+}  // namespace tidemark::test::stream_test
+
 #include "stream_test.moc"

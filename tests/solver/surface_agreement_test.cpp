@@ -7,8 +7,7 @@
 #include "solver/point_tree.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::surface_agreement_test {
 
 class SurfaceAgreementTest : public QObject {
   Q_OBJECT
@@ -128,4 +127,7 @@ class SurfaceAgreementTest : public QObject {
 };
 
 TIDEMARK_TEST(SurfaceAgreementTest)
+
+}  // namespace tidemark::test::surface_agreement_test
+
 #include "surface_agreement_test.moc"

@@ -4,8 +4,7 @@
 #include "tests/solver/balance_check.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::balance_studies_test {
 
 class BalanceStudiesTest : public QObject {
   Q_OBJECT
@@ -47,4 +46,7 @@ class BalanceStudiesTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(BalanceStudiesTest)
+
+}  // namespace tidemark::test::balance_studies_test
+
 #include "balance_studies_test.moc"

@@ -12,9 +12,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::chan_vese_peer_test {
+
 using namespace tidemark::solver;
-using namespace tidemark::test;
 
 namespace {
 
@@ -177,4 +177,7 @@ class ChanVesePeerTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(ChanVesePeerTest)
+
+}  // namespace tidemark::test::chan_vese_peer_test
+
 #include "chan_vese_peer_test.moc"

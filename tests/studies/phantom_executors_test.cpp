@@ -3,8 +3,7 @@
 #include "tests/solver/phantom_problem.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::phantom_executors_test {
 
 class PhantomExecutorsTest : public QObject {
   Q_OBJECT
@@ -27,4 +26,7 @@ class PhantomExecutorsTest : public QObject {
 };
 
 TIDEMARK_TEST(PhantomExecutorsTest)
+
+}  // namespace tidemark::test::phantom_executors_test
+
 #include "phantom_executors_test.moc"

@@ -4,8 +4,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::phantom_head_test {
 
 class PhantomHeadTest : public QObject {
   Q_OBJECT
@@ -53,4 +52,7 @@ class PhantomHeadTest : public QObject {
 };
 
 TIDEMARK_TEST(PhantomHeadTest)
+
+}  // namespace tidemark::test::phantom_head_test
+
 #include "phantom_head_test.moc"

@@ -10,8 +10,7 @@
 
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::segmentation_test {
 
 namespace {
 
@@ -163,4 +162,7 @@ class SegmentationTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(SegmentationTest)
+
+}  // namespace tidemark::test::segmentation_test
+
 #include "segmentation_test.moc"

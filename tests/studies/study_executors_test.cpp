@@ -7,8 +7,7 @@
 #include "solver/speed/speed_registry.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::study_executors_test {
 
 namespace {
 
@@ -36,8 +35,6 @@ std::shared_ptr<const solver::Strokes> strokes_around(const Geometry& geometry, 
 }
 
 }  // namespace
-
-Q_DECLARE_METATYPE(solver::SpeedSetting)
 
 class StudyExecutorsTest : public QObject {
   Q_OBJECT
@@ -94,4 +91,7 @@ class StudyExecutorsTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(StudyExecutorsTest)
+
+}  // namespace tidemark::test::study_executors_test
+
 #include "study_executors_test.moc"

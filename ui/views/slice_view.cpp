@@ -12,8 +12,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr double kLeastZoom = 0.2;
-constexpr double kMostZoom = 40.0;
+constexpr double kLeastSliceZoom = 0.2;
+constexpr double kMostSliceZoom = 40.0;
 constexpr double kSwipeReach = 6.0;  // logical pixels beside the line
 
 class PanDrag : public Drag {
@@ -40,8 +40,8 @@ class ZoomDrag : public Drag {
     zoom_ = display().settings().slice_zoom;
   }
   void move(const Pointer& pointer) override {
-    const double zoom =
-        std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
+    const double zoom = std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0),
+                                   kLeastSliceZoom, kMostSliceZoom);
     display().change([&](engine::DisplaySettings& settings) { settings.slice_zoom = zoom; });
   }
 
@@ -238,7 +238,7 @@ void SliceViewWidget::zoom(double factor, QPointF about) {
   // The point under the mouse stays there.
   const glm::dvec3 point = screen().patient_at(about);
   display().change([&](engine::DisplaySettings& s) {
-    const double zoom = std::clamp(s.slice_zoom * factor, kLeastZoom, kMostZoom);
+    const double zoom = std::clamp(s.slice_zoom * factor, kLeastSliceZoom, kMostSliceZoom);
     const renderer::SliceOrientation o = orientation();
     const glm::dvec3 way = point - s.slice_centre_mm;
     const double share = 1.0 - s.slice_zoom / zoom;

@@ -21,7 +21,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::study_archive_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -436,4 +437,7 @@ class StudyArchiveTest : public QObject {
 };
 
 TIDEMARK_TEST(StudyArchiveTest)
+
+}  // namespace tidemark::test::study_archive_test
+
 #include "study_archive_test.moc"

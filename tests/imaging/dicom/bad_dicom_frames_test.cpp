@@ -6,7 +6,7 @@
 #include "tests/imaging/dicom/frame_bytes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark::test;
+namespace tidemark::test::bad_dicom_frames_test {
 
 namespace {
 
@@ -129,4 +129,7 @@ class BadDicomFramesTest : public QObject {
 };
 
 TIDEMARK_TEST(BadDicomFramesTest)
+
+}  // namespace tidemark::test::bad_dicom_frames_test
+
 #include "bad_dicom_frames_test.moc"

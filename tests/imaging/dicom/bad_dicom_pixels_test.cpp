@@ -3,7 +3,7 @@
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark::test;
+namespace tidemark::test::bad_dicom_pixels_test {
 
 namespace {
 
@@ -278,4 +278,7 @@ class BadDicomPixelsTest : public QObject {
 };
 
 TIDEMARK_TEST(BadDicomPixelsTest)
+
+}  // namespace tidemark::test::bad_dicom_pixels_test
+
 #include "bad_dicom_pixels_test.moc"

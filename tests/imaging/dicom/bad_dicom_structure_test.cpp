@@ -3,7 +3,7 @@
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark::test;
+namespace tidemark::test::bad_dicom_structure_test {
 
 namespace {
 
@@ -243,4 +243,7 @@ class BadDicomStructureTest : public QObject {
 };
 
 TIDEMARK_TEST(BadDicomStructureTest)
+
+}  // namespace tidemark::test::bad_dicom_structure_test
+
 #include "bad_dicom_structure_test.moc"

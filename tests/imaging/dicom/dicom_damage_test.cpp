@@ -15,7 +15,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_damage_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -44,8 +45,6 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
 }
 
 }  // namespace
-
-Q_DECLARE_METATYPE(Damage)
 
 class DicomDamageTest : public QObject {
   Q_OBJECT
@@ -294,4 +293,7 @@ class DicomDamageTest : public QObject {
 };
 
 TIDEMARK_TEST(DicomDamageTest)
+
+}  // namespace tidemark::test::dicom_damage_test
+
 #include "dicom_damage_test.moc"

@@ -14,7 +14,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_frames_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -346,4 +347,7 @@ class DicomFramesTest : public QObject {
 };
 
 TIDEMARK_TEST(DicomFramesTest)
+
+}  // namespace tidemark::test::dicom_frames_test
+
 #include "dicom_frames_test.moc"

@@ -14,7 +14,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_mosaic_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -204,4 +205,7 @@ class DicomMosaicTest : public QObject {
 };
 
 TIDEMARK_TEST(DicomMosaicTest)
+
+}  // namespace tidemark::test::dicom_mosaic_test
+
 #include "dicom_mosaic_test.moc"

@@ -4,7 +4,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_patient_test {
+
 namespace fs = std::filesystem;
 
 class DicomPatientTest : public QObject {
@@ -129,4 +130,7 @@ class DicomPatientTest : public QObject {
 };
 
 TIDEMARK_TEST(DicomPatientTest)
+
+}  // namespace tidemark::test::dicom_patient_test
+
 #include "dicom_patient_test.moc"

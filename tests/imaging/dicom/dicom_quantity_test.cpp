@@ -13,7 +13,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_quantity_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -114,8 +115,6 @@ bool told(const std::vector<std::string>& lines, const QString& part) {
 }
 
 }  // namespace
-
-Q_DECLARE_METATYPE(Change)
 
 class DicomQuantityTest : public QObject {
   Q_OBJECT
@@ -329,4 +328,7 @@ class DicomQuantityTest : public QObject {
 };
 
 TIDEMARK_TEST(DicomQuantityTest)
+
+}  // namespace tidemark::test::dicom_quantity_test
+
 #include "dicom_quantity_test.moc"

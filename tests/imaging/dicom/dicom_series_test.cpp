@@ -15,7 +15,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_series_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -438,4 +439,7 @@ class DicomSeriesTest : public QObject {
 };
 
 TIDEMARK_TEST(DicomSeriesTest)
+
+}  // namespace tidemark::test::dicom_series_test
+
 #include "dicom_series_test.moc"

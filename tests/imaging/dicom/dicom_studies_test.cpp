@@ -15,7 +15,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_studies_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -388,4 +389,7 @@ class DicomStudiesTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(DicomStudiesTest)
+
+}  // namespace tidemark::test::dicom_studies_test
+
 #include "dicom_studies_test.moc"

@@ -13,7 +13,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_syntaxes_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -32,8 +33,6 @@ Volume smooth_volume() {
 }
 
 }  // namespace
-
-Q_DECLARE_METATYPE(E_TransferSyntax)
 
 class DicomSyntaxesTest : public QObject {
   Q_OBJECT
@@ -195,4 +194,7 @@ class DicomSyntaxesTest : public QObject {
 };
 
 TIDEMARK_TEST(DicomSyntaxesTest)
+
+}  // namespace tidemark::test::dicom_syntaxes_test
+
 #include "dicom_syntaxes_test.moc"

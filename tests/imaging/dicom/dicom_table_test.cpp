@@ -16,7 +16,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_table_test {
+
 namespace fs = std::filesystem;
 using test::Agreement;
 using test::Loaded;
@@ -399,4 +400,7 @@ class DicomTableTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(DicomTableTest)
+
+}  // namespace tidemark::test::dicom_table_test
+
 #include "dicom_table_test.moc"

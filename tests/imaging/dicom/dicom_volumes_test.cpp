@@ -8,7 +8,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_volumes_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -171,4 +172,7 @@ class DicomVolumesTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(DicomVolumesTest)
+
+}  // namespace tidemark::test::dicom_volumes_test
+
 #include "dicom_volumes_test.moc"

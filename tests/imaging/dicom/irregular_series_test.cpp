@@ -13,7 +13,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::irregular_series_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -250,4 +251,7 @@ class IrregularSeriesTest : public QObject {
 };
 
 TIDEMARK_TEST(IrregularSeriesTest)
+
+}  // namespace tidemark::test::irregular_series_test
+
 #include "irregular_series_test.moc"

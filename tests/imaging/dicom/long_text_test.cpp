@@ -7,8 +7,7 @@
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::long_text_test {
 
 namespace {
 
@@ -107,4 +106,7 @@ class LongTextTest : public QObject {
 };
 
 TIDEMARK_TEST(LongTextTest)
+
+}  // namespace tidemark::test::long_text_test
+
 #include "long_text_test.moc"

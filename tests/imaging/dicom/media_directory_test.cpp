@@ -11,7 +11,8 @@
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::media_directory_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -262,4 +263,7 @@ class MediaDirectoryTest : public QObject {
 };
 
 TIDEMARK_TEST(MediaDirectoryTest)
+
+}  // namespace tidemark::test::media_directory_test
+
 #include "media_directory_test.moc"

@@ -11,8 +11,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::parsed_dicom_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -114,4 +114,7 @@ class ParsedDicomTest : public QObject {
 };
 
 TIDEMARK_TEST(ParsedDicomTest)
+
+}  // namespace tidemark::test::parsed_dicom_test
+
 #include "parsed_dicom_test.moc"

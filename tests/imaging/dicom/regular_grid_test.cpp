@@ -10,7 +10,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::regular_grid_test {
 
 namespace {
 
@@ -367,4 +367,7 @@ class RegularGridTest : public QObject {
 };
 
 TIDEMARK_TEST(RegularGridTest)
+
+}  // namespace tidemark::test::regular_grid_test
+
 #include "regular_grid_test.moc"

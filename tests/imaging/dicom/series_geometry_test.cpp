@@ -10,7 +10,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::series_geometry_test {
 
 namespace {
 
@@ -264,4 +264,7 @@ class SeriesGeometryTest : public QObject {
 };
 
 TIDEMARK_TEST(SeriesGeometryTest)
+
+}  // namespace tidemark::test::series_geometry_test
+
 #include "series_geometry_test.moc"

@@ -9,7 +9,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::slice_number_test {
+
 using Numbers = std::vector<imaging::SliceNumber>;
 
 namespace {
@@ -89,4 +90,7 @@ class SliceNumberTest : public QObject {
 };
 
 TIDEMARK_TEST(SliceNumberTest)
+
+}  // namespace tidemark::test::slice_number_test
+
 #include "slice_number_test.moc"

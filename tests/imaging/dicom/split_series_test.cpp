@@ -9,7 +9,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::split_series_test {
 
 namespace {
 
@@ -292,4 +292,7 @@ class SplitSeriesTest : public QObject {
 };
 
 TIDEMARK_TEST(SplitSeriesTest)
+
+}  // namespace tidemark::test::split_series_test
+
 #include "split_series_test.moc"

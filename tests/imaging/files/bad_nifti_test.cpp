@@ -7,8 +7,7 @@
 #include "tests/support/test_program.h"
 #include "volumes.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::bad_nifti_test {
 
 namespace {
 
@@ -137,7 +136,7 @@ class BadNiftiTest : public QObject {
 
  private slots:
   void a_bad_file_is_refused_by_name_data() { add_rows(bad_nifti_files()); }
-  void a_bad_file_is_refused_by_name() { verify_refused(); }
+  void a_bad_file_is_refused_by_name() { verify_volume_refused(); }
 
   void a_qform_that_contradicts_the_sform_is_told() {
     const TemporaryFolder folder;
@@ -154,4 +153,7 @@ class BadNiftiTest : public QObject {
 };
 
 TIDEMARK_TEST(BadNiftiTest)
+
+}  // namespace tidemark::test::bad_nifti_test
+
 #include "bad_nifti_test.moc"

@@ -5,8 +5,7 @@
 #include "tests/support/test_program.h"
 #include "volumes.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::bad_picture_test {
 
 namespace {
 
@@ -125,11 +124,11 @@ class BadPictureTest : public QObject {
 
  private slots:
   void a_bad_png_is_refused_by_name_data() { add_rows(bad_pngs()); }
-  void a_bad_png_is_refused_by_name() { verify_refused(); }
+  void a_bad_png_is_refused_by_name() { verify_volume_refused(); }
   void a_bad_jpeg_is_refused_by_name_data() { add_rows(bad_jpegs()); }
-  void a_bad_jpeg_is_refused_by_name() { verify_refused(); }
+  void a_bad_jpeg_is_refused_by_name() { verify_volume_refused(); }
   void a_bad_tiff_is_refused_by_name_data() { add_rows(bad_tiffs()); }
-  void a_bad_tiff_is_refused_by_name() { verify_refused(); }
+  void a_bad_tiff_is_refused_by_name() { verify_volume_refused(); }
 
   void a_picture_cut_anywhere_is_refused() {
     const TemporaryFolder folder;
@@ -173,4 +172,7 @@ class BadPictureTest : public QObject {
 };
 
 TIDEMARK_TEST(BadPictureTest)
+
+}  // namespace tidemark::test::bad_picture_test
+
 #include "bad_picture_test.moc"

@@ -9,8 +9,7 @@
 #include "tests/support/test_program.h"
 #include "volumes.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::bad_volume_file_test {
 
 namespace {
 
@@ -237,9 +236,9 @@ class BadVolumeFileTest : public QObject {
 
  private slots:
   void a_bad_file_is_refused_by_name_data() { add_rows(bad_text_header_files()); }
-  void a_bad_file_is_refused_by_name() { verify_refused(); }
+  void a_bad_file_is_refused_by_name() { verify_volume_refused(); }
   void a_bad_gipl_file_is_refused_by_name_data() { add_rows(bad_gipl_files()); }
-  void a_bad_gipl_file_is_refused_by_name() { verify_refused(); }
+  void a_bad_gipl_file_is_refused_by_name() { verify_volume_refused(); }
 
   void a_file_that_is_not_there_is_an_error_of_both() {
     const auto volume = imaging::read_volume_file("/nonexistent/v.nii");
@@ -284,4 +283,7 @@ class BadVolumeFileTest : public QObject {
 };
 
 TIDEMARK_TEST(BadVolumeFileTest)
+
+}  // namespace tidemark::test::bad_volume_file_test
+
 #include "bad_volume_file_test.moc"

@@ -21,7 +21,7 @@ void add_rows(const std::vector<BadFile>& files) {
   qInfo("%zu bad files", files.size());
 }
 
-void verify_refused() {
+void verify_volume_refused() {
   QFETCH(QString, name);
   QFETCH(QByteArray, bytes);
   QFETCH(QString, field);

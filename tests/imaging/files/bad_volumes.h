@@ -20,7 +20,7 @@ void add_rows(const std::vector<BadFile>& files);
 
 // The row's file is refused by a scan and a read, within a second, in one line that names the file and the
 // field.
-void verify_refused();
+void verify_volume_refused();
 
 std::string gzip(const std::string& bytes);
 // Of 2 x 2 x 2 floats, the one at (1, 0, 1) is bad.

@@ -12,8 +12,7 @@
 #include "tests/support/test_program.h"
 #include "volumes.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::picture_test {
 
 namespace {
 
@@ -297,4 +296,7 @@ class PictureTest : public QObject {
 };
 
 TIDEMARK_TEST(PictureTest)
+
+}  // namespace tidemark::test::picture_test
+
 #include "picture_test.moc"

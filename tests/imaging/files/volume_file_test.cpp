@@ -13,8 +13,7 @@
 #include "tests/support/test_program.h"
 #include "volumes.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::volume_file_test {
 
 namespace {
 
@@ -410,4 +409,7 @@ class VolumeFileTest : public QObject {
 };
 
 TIDEMARK_TEST(VolumeFileTest)
+
+}  // namespace tidemark::test::volume_file_test
+
 #include "volume_file_test.moc"

@@ -9,8 +9,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::volume_studies_test {
+
 using nlohmann::json;
 
 namespace {
@@ -167,4 +167,7 @@ class VolumeStudiesTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(VolumeStudiesTest)
+
+}  // namespace tidemark::test::volume_studies_test
+
 #include "volume_studies_test.moc"

@@ -13,7 +13,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::filters_test {
+
 using tidemark::test::failure;
 
 namespace {
@@ -264,4 +265,7 @@ class FiltersTest : public QObject {
 };
 
 TIDEMARK_TEST(FiltersTest)
+
+}  // namespace tidemark::test::filters_test
+
 #include "filters_test.moc"

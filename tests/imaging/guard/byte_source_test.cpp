@@ -11,7 +11,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::byte_source_test {
 
 namespace {
 
@@ -70,4 +70,7 @@ class ByteSourceTest : public QObject {
 };
 
 TIDEMARK_TEST(ByteSourceTest)
+
+}  // namespace tidemark::test::byte_source_test
+
 #include "byte_source_test.moc"

@@ -13,8 +13,7 @@
 #include "tests/imaging/pacs/encodings.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::pacs_archive_test {
 
 namespace {
 
@@ -345,4 +344,7 @@ class PacsArchiveTest : public QObject {
 };
 
 TIDEMARK_TEST(PacsArchiveTest)
+
+}  // namespace tidemark::test::pacs_archive_test
+
 #include "pacs_archive_test.moc"

@@ -7,8 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::pacs_configuration_test {
 
 class PacsConfigurationTest : public QObject {
   Q_OBJECT
@@ -152,4 +151,7 @@ class PacsConfigurationTest : public QObject {
 };
 
 TIDEMARK_TEST(PacsConfigurationTest)
+
+}  // namespace tidemark::test::pacs_configuration_test
+
 #include "pacs_configuration_test.moc"

@@ -12,8 +12,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::pacs_flood_test {
 
 namespace {
 
@@ -280,4 +279,7 @@ class PacsFloodTest : public QObject {
 };
 
 TIDEMARK_TEST(PacsFloodTest)
+
+}  // namespace tidemark::test::pacs_flood_test
+
 #include "pacs_flood_test.moc"

@@ -10,8 +10,7 @@
 #include "tests/imaging/pacs/wire.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::pacs_hostile_test {
 
 namespace {
 
@@ -346,4 +345,7 @@ class PacsHostileTest : public QObject {
 };
 
 TIDEMARK_TEST(PacsHostileTest)
+
+}  // namespace tidemark::test::pacs_hostile_test
+
 #include "pacs_hostile_test.moc"

@@ -11,8 +11,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::pacs_retrieval_folder_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -146,4 +146,7 @@ class PacsRetrievalFolderTest : public QObject {
 };
 
 TIDEMARK_TEST(PacsRetrievalFolderTest)
+
+}  // namespace tidemark::test::pacs_retrieval_folder_test
+
 #include "pacs_retrieval_folder_test.moc"

@@ -9,8 +9,7 @@
 #include "tests/imaging/pacs/scripted_peer.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::pacs_tls_test {
 
 class PacsTlsTest : public QObject {
   Q_OBJECT
@@ -158,4 +157,7 @@ class PacsTlsTest : public QObject {
 };
 
 TIDEMARK_TEST(PacsTlsTest)
+
+}  // namespace tidemark::test::pacs_tls_test
+
 #include "pacs_tls_test.moc"

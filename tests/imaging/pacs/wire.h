@@ -43,7 +43,7 @@ constexpr int kEchoResponse = 0x8030;
 constexpr int kFindResponse = 0x8020;
 constexpr int kGetResponse = 0x8010;
 constexpr int kPending = 0xff00;
-constexpr const char* kImplicit = "1.2.840.10008.1.2";
+constexpr const char* kImplicitSyntax = "1.2.840.10008.1.2";
 constexpr const char* kCt = "1.2.840.10008.5.1.4.1.1.2";
 
 // In explicit little endian.

@@ -10,8 +10,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::phantom_kinds_test {
 
 class PhantomKindsTest : public QObject {
   Q_OBJECT
@@ -158,4 +157,7 @@ class PhantomKindsTest : public QObject {
 };
 
 TIDEMARK_TEST(PhantomKindsTest)
+
+}  // namespace tidemark::test::phantom_kinds_test
+
 #include "phantom_kinds_test.moc"

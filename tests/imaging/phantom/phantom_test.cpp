@@ -11,8 +11,8 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::phantom_test {
+
 using tidemark::imaging::phantom::RandomWaves;
 
 namespace {
@@ -209,4 +209,7 @@ class PhantomTest : public QObject {
 };
 
 TIDEMARK_TEST(PhantomTest)
+
+}  // namespace tidemark::test::phantom_test
+
 #include "phantom_test.moc"

@@ -10,8 +10,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::phantom_write_test {
 
 namespace {
 
@@ -133,4 +132,7 @@ class PhantomWriteTest : public QObject {
 };
 
 TIDEMARK_TEST(PhantomWriteTest)
+
+}  // namespace tidemark::test::phantom_write_test
+
 #include "phantom_write_test.moc"

@@ -13,8 +13,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::regions_test {
 
 namespace {
 
@@ -332,4 +331,7 @@ class RegionsTest : public QObject {
 };
 
 TIDEMARK_TEST(RegionsTest)
+
+}  // namespace tidemark::test::regions_test
+
 #include "regions_test.moc"

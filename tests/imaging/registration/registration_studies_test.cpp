@@ -7,7 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::registration_studies_test {
 
 class RegistrationStudiesTest : public QObject {
   Q_OBJECT
@@ -61,4 +61,7 @@ class RegistrationStudiesTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(RegistrationStudiesTest)
+
+}  // namespace tidemark::test::registration_studies_test
+
 #include "registration_studies_test.moc"

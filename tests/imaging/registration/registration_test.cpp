@@ -10,7 +10,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::registration_test {
 
 namespace {
 
@@ -127,4 +127,7 @@ class RegistrationTest : public QObject {
 };
 
 TIDEMARK_TEST(RegistrationTest)
+
+}  // namespace tidemark::test::registration_test
+
 #include "registration_test.moc"

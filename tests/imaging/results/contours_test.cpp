@@ -7,7 +7,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::contours_test {
 
 class ContoursTest : public QObject {
   Q_OBJECT
@@ -133,4 +133,7 @@ class ContoursTest : public QObject {
 };
 
 TIDEMARK_TEST(ContoursTest)
+
+}  // namespace tidemark::test::contours_test
+
 #include "contours_test.moc"

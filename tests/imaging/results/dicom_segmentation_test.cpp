@@ -13,7 +13,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::dicom_segmentation_test {
 
 class DicomSegmentationTest : public QObject {
   Q_OBJECT
@@ -415,4 +415,7 @@ class DicomSegmentationTest : public QObject {
 };
 
 TIDEMARK_TEST(DicomSegmentationTest)
+
+}  // namespace tidemark::test::dicom_segmentation_test
+
 #include "dicom_segmentation_test.moc"

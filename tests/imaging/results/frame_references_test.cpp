@@ -9,7 +9,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::frame_references_test {
 
 namespace {
 
@@ -108,4 +108,7 @@ class FrameReferencesTest : public QObject {
 };
 
 TIDEMARK_TEST(FrameReferencesTest)
+
+}  // namespace tidemark::test::frame_references_test
+
 #include "frame_references_test.moc"

@@ -11,7 +11,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::level_set_file_test {
 
 class LevelSetFileTest : public QObject {
   Q_OBJECT
@@ -133,4 +133,7 @@ class LevelSetFileTest : public QObject {
 };
 
 TIDEMARK_TEST(LevelSetFileTest)
+
+}  // namespace tidemark::test::level_set_file_test
+
 #include "level_set_file_test.moc"

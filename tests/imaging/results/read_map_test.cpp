@@ -11,7 +11,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::read_map_test {
 
 namespace {
 
@@ -213,4 +213,7 @@ class ReadMapTest : public QObject {
 };
 
 TIDEMARK_TEST(ReadMapTest)
+
+}  // namespace tidemark::test::read_map_test
+
 #include "read_map_test.moc"

@@ -9,7 +9,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::segmentation_memory_test {
 
 namespace {
 
@@ -114,4 +114,7 @@ class SegmentationMemoryTest : public QObject {
 };
 
 TIDEMARK_TEST(SegmentationMemoryTest)
+
+}  // namespace tidemark::test::segmentation_memory_test
+
 #include "segmentation_memory_test.moc"

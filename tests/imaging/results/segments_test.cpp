@@ -5,8 +5,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::segments_test {
 
 class SegmentsTest : public QObject {
   Q_OBJECT
@@ -68,4 +67,7 @@ class SegmentsTest : public QObject {
 };
 
 TIDEMARK_TEST(SegmentsTest)
+
+}  // namespace tidemark::test::segments_test
+
 #include "segments_test.moc"

@@ -11,7 +11,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::structure_set_peer_test {
 
 namespace {
 
@@ -111,4 +111,7 @@ class StructureSetPeerTest : public QObject {
 };
 
 TIDEMARK_TEST(StructureSetPeerTest)
+
+}  // namespace tidemark::test::structure_set_peer_test
+
 #include "structure_set_peer_test.moc"

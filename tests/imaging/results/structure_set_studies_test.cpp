@@ -5,7 +5,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::structure_set_studies_test {
 
 class StructureSetStudiesTest : public QObject {
   Q_OBJECT
@@ -33,4 +33,7 @@ class StructureSetStudiesTest : public QObject {
 };
 
 TIDEMARK_STUDY_TEST(StructureSetStudiesTest)
+
+}  // namespace tidemark::test::structure_set_studies_test
+
 #include "structure_set_studies_test.moc"

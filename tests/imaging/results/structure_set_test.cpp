@@ -15,7 +15,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::structure_set_test {
 
 class StructureSetTest : public QObject {
   Q_OBJECT
@@ -286,4 +286,7 @@ class StructureSetTest : public QObject {
 };
 
 TIDEMARK_TEST(StructureSetTest)
+
+}  // namespace tidemark::test::structure_set_test
+
 #include "structure_set_test.moc"

@@ -12,8 +12,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::mesh_file_test {
 
 namespace {
 
@@ -148,4 +147,7 @@ class MeshFileTest : public QObject {
 };
 
 TIDEMARK_TEST(MeshFileTest)
+
+}  // namespace tidemark::test::mesh_file_test
+
 #include "mesh_file_test.moc"

@@ -8,8 +8,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::surface_test {
 
 namespace {
 
@@ -255,4 +254,7 @@ class SurfaceTest : public QObject {
 };
 
 TIDEMARK_TEST(SurfaceTest)
+
+}  // namespace tidemark::test::surface_test
+
 #include "surface_test.moc"

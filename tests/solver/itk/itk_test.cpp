@@ -10,7 +10,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-namespace tidemark {
+namespace tidemark::test::itk_test {
 namespace {
 
 using bench::ItkImage;
@@ -170,7 +170,8 @@ class ItkTest : public QObject {
   }
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(ItkTest)
 
-TIDEMARK_TEST(tidemark::ItkTest)
+}  // namespace tidemark::test::itk_test
+
 #include "itk_test.moc"

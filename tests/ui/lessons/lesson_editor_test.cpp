@@ -20,9 +20,8 @@
 #include "tests/ui/panels/panel_case.h"
 #include "ui/look/theme.h"
 
-namespace tidemark {
+namespace tidemark::test::lesson_editor_test {
 
-using namespace test;
 using document::Lesson;
 
 namespace {
@@ -493,7 +492,8 @@ class LessonEditorTest : public QObject {
   }
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(LessonEditorTest)
 
-TIDEMARK_TEST(tidemark::LessonEditorTest)
+}  // namespace tidemark::test::lesson_editor_test
+
 #include "lesson_editor_test.moc"

@@ -9,7 +9,7 @@
 #include "tests/support/test_program.h"
 #include "ui/look/theme.h"
 
-using namespace tidemark;
+namespace tidemark::test::about_dialog_test {
 
 class AboutDialogTest : public QObject {
   Q_OBJECT
@@ -63,4 +63,7 @@ class AboutDialogTest : public QObject {
 };
 
 TIDEMARK_TEST(AboutDialogTest)
+
+}  // namespace tidemark::test::about_dialog_test
+
 #include "about_dialog_test.moc"

@@ -11,7 +11,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 
-using namespace tidemark;
+namespace tidemark::test::look_test {
 
 namespace {
 
@@ -313,4 +313,7 @@ class LookTest : public QObject {
 };
 
 TIDEMARK_TEST(LookTest)
+
+}  // namespace tidemark::test::look_test
+
 #include "look_test.moc"

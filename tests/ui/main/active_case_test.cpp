@@ -17,7 +17,7 @@
 #include "ui/panels/labels_panel.h"
 #include "ui/panels/speed_controls.h"
 
-namespace tidemark::test {
+namespace tidemark::test::active_case_test {
 
 class ActiveCaseTest : public QObject {
   Q_OBJECT
@@ -371,7 +371,8 @@ void ActiveCaseTest::a_case_that_closes_hands_over_to_the_other() {
   QCOMPARE(active(), third);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(ActiveCaseTest)
 
-TIDEMARK_TEST(tidemark::test::ActiveCaseTest)
+}  // namespace tidemark::test::active_case_test
+
 #include "active_case_test.moc"

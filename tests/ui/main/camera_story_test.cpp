@@ -4,7 +4,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 
-namespace tidemark::test {
+namespace tidemark::test::camera_story_test {
 namespace {
 
 // Of what is not background in the picture of a 3D view.
@@ -123,7 +123,8 @@ void CameraStoryTest::reset_brings_the_surface_or_the_volume_into_view() {
   QCOMPARE(desktop.proxy().display().settings().camera.azimuth, of_volume.azimuth);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(CameraStoryTest)
 
-TIDEMARK_TEST(tidemark::test::CameraStoryTest)
+}  // namespace tidemark::test::camera_story_test
+
 #include "camera_story_test.moc"

@@ -9,7 +9,7 @@
 #include "ui/main/case_head.h"
 #include "ui/main/message_bar.h"
 
-namespace tidemark::test {
+namespace tidemark::test::case_marks_story_test {
 
 class CaseMarksStoryTest : public QObject {
   Q_OBJECT
@@ -176,7 +176,8 @@ void CaseMarksStoryTest::a_message_says_of_which_case_it_is_and_goes_with_it() {
   QCOMPARE(marks(), QString());
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(CaseMarksStoryTest)
 
-TIDEMARK_TEST(tidemark::test::CaseMarksStoryTest)
+}  // namespace tidemark::test::case_marks_story_test
+
 #include "case_marks_story_test.moc"

@@ -5,7 +5,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 
-namespace tidemark::test {
+namespace tidemark::test::clip_plane_story_test {
 namespace {
 
 constexpr double kRadius = 6.0;
@@ -127,7 +127,8 @@ void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_p
   }
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(ClipPlaneStoryTest)
 
-TIDEMARK_TEST(tidemark::test::ClipPlaneStoryTest)
+}  // namespace tidemark::test::clip_plane_story_test
+
 #include "clip_plane_story_test.moc"

@@ -11,7 +11,7 @@
 #include "ui/views/next_step.h"
 #include "ui/views/volume_view.h"
 
-namespace tidemark::test {
+namespace tidemark::test::coarse_to_fine_story_test {
 
 class CoarseToFineStoryTest : public QObject {
   Q_OBJECT
@@ -100,7 +100,8 @@ void CoarseToFineStoryTest::a_small_study_does_not_offer_it() {
   QVERIFY(!button<QCheckBox>(*panel, "Coarse to fine")->isVisible());
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(CoarseToFineStoryTest)
 
-TIDEMARK_TEST(tidemark::test::CoarseToFineStoryTest)
+}  // namespace tidemark::test::coarse_to_fine_story_test
+
 #include "coarse_to_fine_story_test.moc"

@@ -7,7 +7,7 @@
 #include "ui/main/case_head.h"
 #include "ui/main/parameter_difference.h"
 
-namespace tidemark::test {
+namespace tidemark::test::comparison_story_test {
 namespace {
 
 std::vector<float> phi_of(ui::CaseWindow& window) {
@@ -126,7 +126,8 @@ void ComparisonStoryTest::parameters_that_differ_are_named() {
                         QStringLiteral("α 0.25, W 4, without curvature")}));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(ComparisonStoryTest)
 
-TIDEMARK_TEST(tidemark::test::ComparisonStoryTest)
+}  // namespace tidemark::test::comparison_story_test
+
 #include "comparison_story_test.moc"

@@ -21,7 +21,7 @@
 #include "ui/panels/profile_controls.h"
 #include "ui/panels/profile_plot.h"
 
-namespace tidemark::test {
+namespace tidemark::test::curves_story_test {
 namespace {
 
 // By its accessible name, else by its text.
@@ -279,7 +279,8 @@ void CurvesStoryTest::phi_along_a_line_is_plotted_and_moves() {
   QVERIFY(!desktop.proxy().display().settings().profile);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(CurvesStoryTest)
 
-TIDEMARK_TEST(tidemark::test::CurvesStoryTest)
+}  // namespace tidemark::test::curves_story_test
+
 #include "curves_story_test.moc"

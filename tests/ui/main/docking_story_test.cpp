@@ -9,7 +9,7 @@
 #include "tests/ui/main/desktop.h"
 #include "ui/main/panel_docks.h"
 
-namespace tidemark::test {
+namespace tidemark::test::docking_story_test {
 
 class DockingStoryTest : public QObject {
   Q_OBJECT
@@ -257,7 +257,8 @@ void DockingStoryTest::a_panel_rests_behind_a_tab_and_keeps_its_size() {
   QCOMPARE(level_set->size(), QSize(400, 700));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(DockingStoryTest)
 
-TIDEMARK_TEST(tidemark::test::DockingStoryTest)
+}  // namespace tidemark::test::docking_story_test
+
 #include "docking_story_test.moc"

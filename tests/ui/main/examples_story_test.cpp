@@ -16,7 +16,7 @@
 #include "ui/panels/wall_controls.h"
 #include "ui/views/next_step.h"
 
-namespace tidemark::test {
+namespace tidemark::test::examples_story_test {
 
 class ExamplesStoryTest : public QObject {
   Q_OBJECT
@@ -367,7 +367,8 @@ void ExamplesStoryTest::five_strokes_and_play_find_a_texture() {
   QLocale::setDefault(QLocale::c());
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(ExamplesStoryTest)
 
-TIDEMARK_TEST(tidemark::test::ExamplesStoryTest)
+}  // namespace tidemark::test::examples_story_test
+
 #include "examples_story_test.moc"

@@ -10,7 +10,7 @@
 #include "ui/main/message_bar.h"
 #include "ui/opening/loading_view.h"
 
-namespace tidemark::test {
+namespace tidemark::test::film_story_test {
 namespace {
 
 constexpr int kPatience = 120'000;  // ms
@@ -105,7 +105,8 @@ class FilmStoryTest : public QObject {
   }
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(FilmStoryTest)
 
-TIDEMARK_TEST(tidemark::test::FilmStoryTest)
+}  // namespace tidemark::test::film_story_test
+
 #include "film_story_test.moc"

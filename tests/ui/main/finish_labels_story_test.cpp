@@ -12,7 +12,7 @@
 #include "ui/panels/labels_panel.h"
 #include "ui/widgets/number_box.h"
 
-namespace tidemark::test {
+namespace tidemark::test::finish_labels_story_test {
 
 class FinishLabelsStoryTest : public QObject {
   Q_OBJECT
@@ -203,7 +203,8 @@ void FinishLabelsStoryTest::the_brush_paints_the_chosen_label_and_no_other() {
   QVERIFY(region(desktop, 2) == second);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(FinishLabelsStoryTest)
 
-TIDEMARK_TEST(tidemark::test::FinishLabelsStoryTest)
+}  // namespace tidemark::test::finish_labels_story_test
+
 #include "finish_labels_story_test.moc"

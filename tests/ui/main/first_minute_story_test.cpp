@@ -10,7 +10,7 @@
 #include "ui/main/panel_docks.h"
 #include "ui/views/next_step.h"
 
-namespace tidemark::test {
+namespace tidemark::test::first_minute_story_test {
 
 class FirstMinuteStoryTest : public QObject {
   Q_OBJECT
@@ -172,7 +172,8 @@ void FirstMinuteStoryTest::the_hint_brings_tool_and_panel() {
   QVERIFY(next->isVisible());
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(FirstMinuteStoryTest)
 
-TIDEMARK_TEST(tidemark::test::FirstMinuteStoryTest)
+}  // namespace tidemark::test::first_minute_story_test
+
 #include "first_minute_story_test.moc"

@@ -9,7 +9,7 @@
 #include "ui/main/value_bar.h"
 #include "ui/panels/registration_dialog.h"
 
-namespace tidemark::test {
+namespace tidemark::test::fusion_story_test {
 
 class FusionStoryTest : public QObject {
   Q_OBJECT
@@ -84,7 +84,8 @@ class FusionStoryTest : public QObject {
   }
 };
 
-}  // namespace tidemark::test
+TIDEMARK_STUDY_TEST(FusionStoryTest)
 
-TIDEMARK_STUDY_TEST(tidemark::test::FusionStoryTest)
+}  // namespace tidemark::test::fusion_story_test
+
 #include "fusion_story_test.moc"

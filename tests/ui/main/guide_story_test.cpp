@@ -15,7 +15,7 @@
 #include "ui/main/panel_docks.h"
 #include "ui/views/next_step.h"
 
-namespace tidemark::test {
+namespace tidemark::test::guide_story_test {
 
 class GuideStoryTest : public QObject {
   Q_OBJECT
@@ -137,7 +137,8 @@ void GuideStoryTest::every_layout_is_whole_in_both_themes() {
   ui::apply_theme(*qApp, ui::Theme::light);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(GuideStoryTest)
 
-TIDEMARK_TEST(tidemark::test::GuideStoryTest)
+}  // namespace tidemark::test::guide_story_test
+
 #include "guide_story_test.moc"

@@ -14,7 +14,7 @@
 #include "ui/panels/history_model.h"
 #include "ui/panels/history_panel.h"
 
-namespace tidemark::test {
+namespace tidemark::test::history_story_test {
 namespace {
 
 // The panel, by hand.
@@ -268,7 +268,8 @@ void HistoryStoryTest::an_arrangement_from_before_the_panel_opens() {
   desktop.screenshot(QStringLiteral("history-3-old-arrangement"));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(HistoryStoryTest)
 
-TIDEMARK_TEST(tidemark::test::HistoryStoryTest)
+}  // namespace tidemark::test::history_story_test
+
 #include "history_story_test.moc"

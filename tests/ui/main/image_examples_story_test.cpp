@@ -21,7 +21,7 @@
 #include "ui/main/session_reader.h"
 #include "ui/panels/joint_plot.h"
 
-namespace tidemark::test {
+namespace tidemark::test::image_examples_story_test {
 
 class ImageExamplesStoryTest : public QObject {
   Q_OBJECT
@@ -280,7 +280,8 @@ void ImageExamplesStoryTest::a_case_from_a_session_knows_its_frame_of_reference(
   QVERIFY(is_told("another frame of reference"));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(ImageExamplesStoryTest)
 
-TIDEMARK_TEST(tidemark::test::ImageExamplesStoryTest)
+}  // namespace tidemark::test::image_examples_story_test
+
 #include "image_examples_story_test.moc"

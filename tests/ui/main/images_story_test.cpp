@@ -12,7 +12,7 @@
 #include "ui/main/value_bar.h"
 #include "ui/widgets/number_box.h"
 
-namespace tidemark::test {
+namespace tidemark::test::images_story_test {
 
 namespace {
 
@@ -229,7 +229,8 @@ class ImagesStoryTest : public QObject {
   }
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(ImagesStoryTest)
 
-TIDEMARK_TEST(tidemark::test::ImagesStoryTest)
+}  // namespace tidemark::test::images_story_test
+
 #include "images_story_test.moc"

@@ -10,7 +10,7 @@
 #include "ui/main/panel_docks.h"
 #include "ui/panels/labels_model.h"
 
-namespace tidemark::test {
+namespace tidemark::test::labels_in_3d_story_test {
 namespace {
 
 constexpr double kRadius = 12.0;  // mm
@@ -95,7 +95,8 @@ void LabelsIn3dStoryTest::a_label_shows_in_its_colour_while_it_is_visible() {
   QVERIFY(std::abs(pixels_of(label, *view) - seen) < seen / 10);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(LabelsIn3dStoryTest)
 
-TIDEMARK_TEST(tidemark::test::LabelsIn3dStoryTest)
+}  // namespace tidemark::test::labels_in_3d_story_test
+
 #include "labels_in_3d_story_test.moc"

@@ -14,7 +14,7 @@
 #include "tests/ui/main/results_desktop.h"
 #include "ui/opening/load_report.h"
 
-namespace tidemark::test {
+namespace tidemark::test::labels_in_story_test {
 
 namespace {
 
@@ -205,7 +205,8 @@ void LabelsInStoryTest::results_in_the_archive_of_a_study_are_offered() {
   QCOMPARE(desktop_->state().label_statistics[1].voxels, std::int64_t{200});  // both are of the same voxels
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(LabelsInStoryTest)
 
-TIDEMARK_TEST(tidemark::test::LabelsInStoryTest)
+}  // namespace tidemark::test::labels_in_story_test
+
 #include "labels_in_story_test.moc"

@@ -11,7 +11,7 @@
 #include "ui/main/case_exports.h"
 #include "ui/main/case_files.h"
 
-namespace tidemark::test {
+namespace tidemark::test::large_study_story_test {
 
 class LargeStudyStoryTest : public QObject {
   Q_OBJECT
@@ -149,7 +149,8 @@ void LargeStudyStoryTest::a_large_study_is_steered_like_a_small_one() {
   QCOMPARE(desktop.engine().contexts_made(), 1);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(LargeStudyStoryTest)
 
-TIDEMARK_TEST(tidemark::test::LargeStudyStoryTest)
+}  // namespace tidemark::test::large_study_story_test
+
 #include "large_study_story_test.moc"

@@ -6,7 +6,7 @@
 #include "tests/ui/main/desktop.h"
 #include "ui/main/message_bar.h"
 
-namespace tidemark::test {
+namespace tidemark::test::leak_story_test {
 namespace {
 
 constexpr int kPatience = 60'000;  // ms
@@ -131,7 +131,8 @@ void LeakStoryTest::the_alarm_can_be_switched_off() {
   QVERIFY(state().surface.volume_ml > 1.9 * kBallMl);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(LeakStoryTest)
 
-TIDEMARK_TEST(tidemark::test::LeakStoryTest)
+}  // namespace tidemark::test::leak_story_test
+
 #include "leak_story_test.moc"

@@ -14,7 +14,7 @@
 #include "tests/ui/main/student.h"
 #include "ui/main/session_reader.h"
 
-namespace tidemark::test {
+namespace tidemark::test::lesson_recovery_story_test {
 
 constexpr const char* kStudent = "--answer-until-killed";
 constexpr const char* kLessonFile = "TIDEMARK_TEST_LESSON";
@@ -180,10 +180,11 @@ void LessonRecoveryStoryTest::the_program_asks_before_it_ends_with_answers() {
   QVERIFY(desktop.window().close());
 }
 
-}  // namespace tidemark::test
+static const tidemark::test::RegisteredTest kVictimProcess(kStudent,
+                                                           [](int, char**) { return answer_until_killed(); });
 
-static const tidemark::test::RegisteredTest kVictimProcess(tidemark::test::kStudent, [](int, char**) {
-  return tidemark::test::answer_until_killed();
-});
-TIDEMARK_TEST(tidemark::test::LessonRecoveryStoryTest)
+TIDEMARK_TEST(LessonRecoveryStoryTest)
+
+}  // namespace tidemark::test::lesson_recovery_story_test
+
 #include "lesson_recovery_story_test.moc"

@@ -13,7 +13,7 @@
 #include "ui/lessons/lesson_panel.h"
 #include "ui/main/teaching.h"
 
-namespace tidemark::test {
+namespace tidemark::test::lesson_story_test {
 namespace {
 
 constexpr int kPatience = 120'000;  // ms
@@ -96,7 +96,8 @@ class LessonStoryTest : public QObject {
   }
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(LessonStoryTest)
 
-TIDEMARK_TEST(tidemark::test::LessonStoryTest)
+}  // namespace tidemark::test::lesson_story_test
+
 #include "lesson_story_test.moc"

@@ -15,7 +15,7 @@
 #include "ui/lessons/lesson_editor.h"
 #include "ui/look/theme.h"
 
-namespace tidemark::test {
+namespace tidemark::test::lesson_writing_story_test {
 
 class LessonWritingStoryTest : public QObject {
   Q_OBJECT
@@ -200,7 +200,8 @@ void LessonWritingStoryTest::large_type_reaches_every_text_and_outlives_the_them
   QTRY_COMPARE(desktop.window().menuBar()->fontMetrics().height(), usual.at("menus"));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(LessonWritingStoryTest)
 
-TIDEMARK_TEST(tidemark::test::LessonWritingStoryTest)
+}  // namespace tidemark::test::lesson_writing_story_test
+
 #include "lesson_writing_story_test.moc"

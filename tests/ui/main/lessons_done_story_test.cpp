@@ -8,7 +8,7 @@
 #include "tests/ui/main/student.h"
 #include "ui/lessons/lesson_text.h"
 
-namespace tidemark::test {
+namespace tidemark::test::lessons_done_story_test {
 namespace {
 
 constexpr const char* kName = "Ada \"Lace\", 3b";
@@ -173,7 +173,8 @@ void LessonsDoneStoryTest::each_is_done_to_the_end_and_handed_in() {
   student.end();
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(LessonsDoneStoryTest)
 
-TIDEMARK_TEST(tidemark::test::LessonsDoneStoryTest)
+}  // namespace tidemark::test::lessons_done_story_test
+
 #include "lessons_done_story_test.moc"

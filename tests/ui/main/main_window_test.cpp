@@ -15,7 +15,7 @@
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
 
-namespace tidemark::test {
+namespace tidemark::test::main_window_test {
 
 class MainWindowTest : public QObject {
   Q_OBJECT
@@ -364,7 +364,8 @@ void MainWindowTest::a_session_is_among_the_recent_studies() {
   QCOMPARE(entries().size(), 1);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(MainWindowTest)
 
-TIDEMARK_TEST(tidemark::test::MainWindowTest)
+}  // namespace tidemark::test::main_window_test
+
 #include "main_window_test.moc"

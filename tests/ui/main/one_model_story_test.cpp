@@ -10,7 +10,7 @@
 #include "ui/panels/speed_controls.h"
 #include "ui/views/view_bar.h"
 
-namespace tidemark::test {
+namespace tidemark::test::one_model_story_test {
 
 class OneModelStoryTest : public QObject {
   Q_OBJECT
@@ -235,7 +235,8 @@ void OneModelStoryTest::the_clip_plane_is_moved_tilted_and_worked_on() {
         static_cast<long long>(with_sphere), static_cast<long long>(yellow_pixels(*view)));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(OneModelStoryTest)
 
-TIDEMARK_TEST(tidemark::test::OneModelStoryTest)
+}  // namespace tidemark::test::one_model_story_test
+
 #include "one_model_story_test.moc"

@@ -7,7 +7,7 @@
 #include "tests/ui/main/desktop.h"
 #include "ui/main/message_bar.h"
 
-namespace tidemark::test {
+namespace tidemark::test::outcome_story_test {
 namespace {
 
 constexpr int kPatience = 60'000;  // ms
@@ -151,7 +151,8 @@ void OutcomeStoryTest::a_range_that_is_too_narrow_is_widened_by_a_click() {
            qPrintable(QStringLiteral("%1 and %2 ml").arg(narrow_ml).arg(found_ml)));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(OutcomeStoryTest)
 
-TIDEMARK_TEST(tidemark::test::OutcomeStoryTest)
+}  // namespace tidemark::test::outcome_story_test
+
 #include "outcome_story_test.moc"

@@ -15,7 +15,7 @@
 #include "ui/passes/pass_cards.h"
 #include "ui/passes/passes_panel.h"
 
-namespace tidemark::test {
+namespace tidemark::test::passes_story_test {
 namespace {
 
 constexpr double kRadius = 10.0;
@@ -229,7 +229,8 @@ void PassesStoryTest::a_window_of_its_own_has_room_for_all() {
   ui::apply_theme(*qApp, ui::Theme::light);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(PassesStoryTest)
 
-TIDEMARK_TEST(tidemark::test::PassesStoryTest)
+}  // namespace tidemark::test::passes_story_test
+
 #include "passes_story_test.moc"

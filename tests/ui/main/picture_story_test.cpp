@@ -12,7 +12,7 @@
 #include "ui/main/case_window.h"
 #include "ui/settings.h"
 
-namespace tidemark::test {
+namespace tidemark::test::picture_story_test {
 
 namespace {
 
@@ -134,7 +134,8 @@ class PictureStoryTest : public QObject {
   }
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(PictureStoryTest)
 
-TIDEMARK_TEST(tidemark::test::PictureStoryTest)
+}  // namespace tidemark::test::picture_story_test
+
 #include "picture_story_test.moc"

@@ -19,7 +19,7 @@
 #include "ui/main/case_files.h"
 #include "ui/main/session_writer.h"
 
-namespace tidemark::test {
+namespace tidemark::test::privacy_story_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -217,7 +217,8 @@ void PrivacyStoryTest::the_patient_is_in_no_file_that_is_written() {
   QVERIFY(!telling_file(folder_ / "study").isEmpty());
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(PrivacyStoryTest)
 
-TIDEMARK_TEST(tidemark::test::PrivacyStoryTest)
+}  // namespace tidemark::test::privacy_story_test
+
 #include "privacy_story_test.moc"

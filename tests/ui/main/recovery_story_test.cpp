@@ -16,7 +16,7 @@
 #include "ui/main/message_bar.h"
 #include "ui/main/session_reader.h"
 
-namespace tidemark::test {
+namespace tidemark::test::recovery_story_test {
 
 constexpr const char* kVictim = "--work-until-killed";
 
@@ -211,10 +211,11 @@ void RecoveryStoryTest::nothing_is_offered_after_a_clean_end() {
   QVERIFY(desktop.window().cases().isEmpty());
 }
 
-}  // namespace tidemark::test
+static const tidemark::test::RegisteredTest kVictimProcess(kVictim,
+                                                           [](int, char**) { return work_until_killed(); });
 
-static const tidemark::test::RegisteredTest kVictimProcess(tidemark::test::kVictim, [](int, char**) {
-  return tidemark::test::work_until_killed();
-});
-TIDEMARK_TEST(tidemark::test::RecoveryStoryTest)
+TIDEMARK_TEST(RecoveryStoryTest)
+
+}  // namespace tidemark::test::recovery_story_test
+
 #include "recovery_story_test.moc"

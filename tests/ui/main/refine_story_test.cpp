@@ -16,7 +16,7 @@
 #include "ui/panels/labels_panel.h"
 #include "ui/widgets/number_box.h"
 
-namespace tidemark::test {
+namespace tidemark::test::refine_story_test {
 
 class RefineStoryTest : public QObject {
   Q_OBJECT
@@ -148,7 +148,8 @@ void RefineStoryTest::a_label_is_refined_shown_and_undone() {
   QCOMPARE(desktop.state().phi->mask().voxels, now.voxels);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(RefineStoryTest)
 
-TIDEMARK_TEST(tidemark::test::RefineStoryTest)
+}  // namespace tidemark::test::refine_story_test
+
 #include "refine_story_test.moc"

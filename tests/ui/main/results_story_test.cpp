@@ -16,7 +16,7 @@
 #include "ui/results/send_result_dialog.h"
 #include "ui/results/write_result_dialog.h"
 
-namespace tidemark::test {
+namespace tidemark::test::results_story_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -306,7 +306,8 @@ void ResultsStoryTest::a_server_that_keeps_silent_is_given_up_by_a_click() {
   QVERIFY(says(dialog, "Cancelled"));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(ResultsStoryTest)
 
-TIDEMARK_TEST(tidemark::test::ResultsStoryTest)
+}  // namespace tidemark::test::results_story_test
+
 #include "results_story_test.moc"

@@ -7,7 +7,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 
-namespace tidemark::test {
+namespace tidemark::test::rough_story_test {
 
 class RoughStoryTest : public QObject {
   Q_OBJECT
@@ -239,7 +239,8 @@ void RoughStoryTest::a_lost_context_is_made_good() {
   disconnect(&desktop.proxy(), nullptr, this, nullptr);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(RoughStoryTest)
 
-TIDEMARK_TEST(tidemark::test::RoughStoryTest)
+}  // namespace tidemark::test::rough_story_test
+
 #include "rough_story_test.moc"

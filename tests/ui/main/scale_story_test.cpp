@@ -16,7 +16,7 @@
 #include "ui/main/panel_docks.h"
 #include "ui/views/view_bar.h"
 
-namespace tidemark::test {
+namespace tidemark::test::scale_story_test {
 
 class ScaleStoryTest : public QObject {
   Q_OBJECT
@@ -189,7 +189,8 @@ void ScaleStoryTest::the_window_opens_within_the_screen() {
            qPrintable(QStringLiteral("%1 x %2").arg(needed.width()).arg(needed.height())));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(ScaleStoryTest)
 
-TIDEMARK_TEST(tidemark::test::ScaleStoryTest)
+}  // namespace tidemark::test::scale_story_test
+
 #include "scale_story_test.moc"

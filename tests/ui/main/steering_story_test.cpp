@@ -10,7 +10,7 @@
 #include "ui/main/case_exports.h"
 #include "ui/main/case_files.h"
 
-namespace tidemark::test {
+namespace tidemark::test::steering_story_test {
 
 class SteeringStoryTest : public QObject {
   Q_OBJECT
@@ -180,7 +180,8 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   QCOMPARE(desktop.engine().contexts_made(), 1);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(SteeringStoryTest)
 
-TIDEMARK_TEST(tidemark::test::SteeringStoryTest)
+}  // namespace tidemark::test::steering_story_test
+
 #include "steering_story_test.moc"

@@ -15,7 +15,7 @@
 #include "ui/panels/sweep_panel.h"
 #include "ui/widgets/number_box.h"
 
-namespace tidemark::test {
+namespace tidemark::test::sweep_story_test {
 
 class SweepStoryTest : public QObject {
   Q_OBJECT
@@ -271,7 +271,8 @@ void SweepStoryTest::an_arrangement_from_before_the_panel_still_opens() {
   desktop.screenshot("sweep-6-old-arrangement");
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(SweepStoryTest)
 
-TIDEMARK_TEST(tidemark::test::SweepStoryTest)
+}  // namespace tidemark::test::sweep_story_test
+
 #include "sweep_story_test.moc"

@@ -13,7 +13,7 @@
 #include "ui/main/message_bar.h"
 #include "ui/panels/evolution_figures.h"
 
-namespace tidemark::test {
+namespace tidemark::test::truth_story_test {
 namespace {
 
 constexpr double kRadius = 8.0;  // mm, of the surface
@@ -200,7 +200,8 @@ void TruthStoryTest::a_session_keeps_it_until_it_is_taken_back() {
   QVERIFY(!desktop_->proxy().truth());
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(TruthStoryTest)
 
-TIDEMARK_TEST(tidemark::test::TruthStoryTest)
+}  // namespace tidemark::test::truth_story_test
+
 #include "truth_story_test.moc"

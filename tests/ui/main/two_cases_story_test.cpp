@@ -10,7 +10,7 @@
 #include "tests/ui/main/desktop.h"
 #include "ui/panels/speed_controls.h"
 
-namespace tidemark::test {
+namespace tidemark::test::two_cases_story_test {
 
 class TwoCasesStoryTest : public QObject {
   Q_OBJECT
@@ -338,7 +338,8 @@ void TwoCasesStoryTest::lock_step_ends_with_its_cases() {
   QVERIFY(!desktop.proxy().in_lock_step());
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(TwoCasesStoryTest)
 
-TIDEMARK_TEST(tidemark::test::TwoCasesStoryTest)
+}  // namespace tidemark::test::two_cases_story_test
+
 #include "two_cases_story_test.moc"

@@ -6,7 +6,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 
-namespace tidemark::test {
+namespace tidemark::test::view_menu_story_test {
 
 class ViewMenuStoryTest : public QObject {
   Q_OBJECT
@@ -236,7 +236,8 @@ void ViewMenuStoryTest::in_3d_the_surface_is_a_place() {
   QTest::keyClick(menu(), Qt::Key_Escape);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(ViewMenuStoryTest)
 
-TIDEMARK_TEST(tidemark::test::ViewMenuStoryTest)
+}  // namespace tidemark::test::view_menu_story_test
+
 #include "view_menu_story_test.moc"

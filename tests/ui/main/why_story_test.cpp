@@ -13,7 +13,7 @@
 #include "ui/panels/balance_controls.h"
 #include "ui/panels/speed_plot.h"
 
-namespace tidemark::test {
+namespace tidemark::test::why_story_test {
 namespace {
 
 constexpr double kRadius = 10.0;
@@ -267,7 +267,8 @@ void WhyStoryTest::a_case_is_closed_while_it_is_explained() {
   desktop.wait_until_idle();
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(WhyStoryTest)
 
-TIDEMARK_TEST(tidemark::test::WhyStoryTest)
+}  // namespace tidemark::test::why_story_test
+
 #include "why_story_test.moc"

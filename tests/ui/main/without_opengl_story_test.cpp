@@ -8,7 +8,7 @@
 #include "ui/views/next_step.h"
 #include "ui/views/picture_surface.h"
 
-namespace tidemark::test {
+namespace tidemark::test::without_opengl_story_test {
 namespace {
 
 void click(QWidget& widget, QPoint at) {
@@ -118,7 +118,8 @@ void WithoutOpenglStoryTest::the_status_bar_says_who_draws() {
   QVERIFY2(note->toolTip().contains("OpenGL was not wanted"), qPrintable(note->toolTip()));
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(WithoutOpenglStoryTest)
 
-TIDEMARK_TEST(tidemark::test::WithoutOpenglStoryTest)
+}  // namespace tidemark::test::without_opengl_story_test
+
 #include "without_opengl_story_test.moc"

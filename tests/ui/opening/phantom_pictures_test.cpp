@@ -11,7 +11,7 @@
 #include "tests/support/test_program.h"
 #include "ui/views/mask_outline.h"
 
-using namespace tidemark;
+namespace tidemark::test::phantom_pictures_test {
 
 namespace {
 
@@ -82,4 +82,7 @@ class PhantomPicturesTest : public QObject {
 };
 
 TIDEMARK_TEST(PhantomPicturesTest)
+
+}  // namespace tidemark::test::phantom_pictures_test
+
 #include "phantom_pictures_test.moc"

@@ -13,7 +13,8 @@
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/series_model.h"
 
-using namespace tidemark;
+namespace tidemark::test::series_browser_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -232,4 +233,7 @@ class SeriesBrowserTest : public QObject {
 };
 
 TIDEMARK_TEST(SeriesBrowserTest)
+
+}  // namespace tidemark::test::series_browser_test
+
 #include "series_browser_test.moc"

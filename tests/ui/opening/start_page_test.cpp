@@ -26,7 +26,7 @@
 #include "ui/opening/recent_pictures.h"
 #include "ui/opening/recent_studies.h"
 
-using namespace tidemark;
+namespace tidemark::test::start_page_test {
 
 class StartPageTest : public QObject {
   Q_OBJECT
@@ -315,4 +315,7 @@ class StartPageTest : public QObject {
 };
 
 TIDEMARK_TEST(StartPageTest)
+
+}  // namespace tidemark::test::start_page_test
+
 #include "start_page_test.moc"

@@ -18,7 +18,7 @@
 #include "ui/opening/preview_page.h"
 #include "ui/opening/series_browser.h"
 
-using namespace tidemark;
+namespace tidemark::test::study_opener_test {
 
 namespace {
 
@@ -443,4 +443,7 @@ class StudyOpenerTest : public QObject {
 };
 
 TIDEMARK_TEST(StudyOpenerTest)
+
+}  // namespace tidemark::test::study_opener_test
+
 #include "study_opener_test.moc"

@@ -12,8 +12,7 @@
 #include "tests/support/test_program.h"
 #include "ui/look/theme.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::query_dialog_test {
 
 namespace {
 
@@ -162,4 +161,7 @@ class QueryDialogTest : public QObject {
 };
 
 TIDEMARK_TEST(QueryDialogTest)
+
+}  // namespace tidemark::test::query_dialog_test
+
 #include "query_dialog_test.moc"

@@ -9,8 +9,7 @@
 #include "tests/imaging/pacs/archives.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::servers_dialog_test {
 
 namespace {
 
@@ -140,4 +139,7 @@ class ServersDialogTest : public QObject {
 };
 
 TIDEMARK_TEST(ServersDialogTest)
+
+}  // namespace tidemark::test::servers_dialog_test
+
 #include "servers_dialog_test.moc"

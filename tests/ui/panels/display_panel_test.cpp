@@ -12,9 +12,7 @@
 #include "tests/ui/panels/panel_case.h"
 #include "ui/widgets/colour_button.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::display_panel_test {
 
 class DisplayPanelTest : public QObject {
   Q_OBJECT
@@ -204,7 +202,8 @@ class DisplayPanelTest : public QObject {
   std::unique_ptr<ui::DisplayPanel> panel_;
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(DisplayPanelTest)
 
-TIDEMARK_TEST(tidemark::DisplayPanelTest)
+}  // namespace tidemark::test::display_panel_test
+
 #include "display_panel_test.moc"

@@ -20,9 +20,8 @@
 #include "ui/panels/statistics_panel.h"
 #include "ui/panels/sweep_panel.h"
 
-namespace tidemark {
+namespace tidemark::test::every_panel_test {
 
-using namespace test;
 using MakePanel = std::function<std::unique_ptr<ui::Panel>()>;
 
 // Whether a widget is a part of another control.
@@ -121,7 +120,8 @@ class EveryPanelTest : public QObject {
   PanelCase the_case_;
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(EveryPanelTest)
 
-TIDEMARK_TEST(tidemark::EveryPanelTest)
+}  // namespace tidemark::test::every_panel_test
+
 #include "every_panel_test.moc"

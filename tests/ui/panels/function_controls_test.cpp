@@ -12,9 +12,7 @@
 #include "ui/panels/joint_plot.h"
 #include "ui/panels/level_set_panel.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::function_controls_test {
 
 class FunctionControlsTest : public QObject {
   Q_OBJECT
@@ -168,7 +166,8 @@ class FunctionControlsTest : public QObject {
   std::unique_ptr<ui::LevelSetPanel> panel_;
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(FunctionControlsTest)
 
-TIDEMARK_TEST(tidemark::FunctionControlsTest)
+}  // namespace tidemark::test::function_controls_test
+
 #include "function_controls_test.moc"

@@ -3,6 +3,8 @@
 
 #include "tests/support/test_program.h"
 
+namespace tidemark::test::history_lanes_test {
+
 using namespace tidemark::ui;
 
 class HistoryLanesTest : public QObject {
@@ -38,4 +40,7 @@ class HistoryLanesTest : public QObject {
 };
 
 TIDEMARK_TEST(HistoryLanesTest)
+
+}  // namespace tidemark::test::history_lanes_test
+
 #include "history_lanes_test.moc"

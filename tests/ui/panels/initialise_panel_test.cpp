@@ -13,9 +13,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::initialise_panel_test {
 
 class InitialisePanelTest : public QObject {
   Q_OBJECT
@@ -279,7 +277,8 @@ class InitialisePanelTest : public QObject {
   std::unique_ptr<ui::InitialisePanel> panel_;
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(InitialisePanelTest)
 
-TIDEMARK_TEST(tidemark::InitialisePanelTest)
+}  // namespace tidemark::test::initialise_panel_test
+
 #include "initialise_panel_test.moc"

@@ -15,9 +15,7 @@
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::labels_panel_test {
 
 class LabelsPanelTest : public QObject {
   Q_OBJECT
@@ -302,7 +300,8 @@ class LabelsPanelTest : public QObject {
   std::unique_ptr<ui::LabelsPanel> panel_;
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(LabelsPanelTest)
 
-TIDEMARK_TEST(tidemark::LabelsPanelTest)
+}  // namespace tidemark::test::labels_panel_test
+
 #include "labels_panel_test.moc"

@@ -21,9 +21,7 @@
 #include "ui/panels/speed_plot.h"
 #include "ui/widgets/disclosure.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::level_set_panel_test {
 
 // The middle of a slider's handle.
 static QPoint handle_of(QSlider& slider) {
@@ -369,7 +367,8 @@ class LevelSetPanelTest : public QObject {
   std::unique_ptr<ui::LevelSetPanel> panel_;
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(LevelSetPanelTest)
 
-TIDEMARK_TEST(tidemark::LevelSetPanelTest)
+}  // namespace tidemark::test::level_set_panel_test
+
 #include "level_set_panel_test.moc"

@@ -9,9 +9,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::paint_panel_test {
 
 class PaintPanelTest : public QObject {
   Q_OBJECT
@@ -81,7 +79,8 @@ class PaintPanelTest : public QObject {
   std::unique_ptr<ui::PaintPanel> panel_;
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(PaintPanelTest)
 
-TIDEMARK_TEST(tidemark::PaintPanelTest)
+}  // namespace tidemark::test::paint_panel_test
+
 #include "paint_panel_test.moc"

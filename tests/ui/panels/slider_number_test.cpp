@@ -13,9 +13,7 @@
 #include "ui/widgets/number_box.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::slider_number_test {
 
 class SliderNumberTest : public QObject {
   Q_OBJECT
@@ -130,7 +128,8 @@ class SliderNumberTest : public QObject {
   }
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(SliderNumberTest)
 
-TIDEMARK_TEST(tidemark::SliderNumberTest)
+}  // namespace tidemark::test::slider_number_test
+
 #include "slider_number_test.moc"

@@ -7,9 +7,7 @@
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/level_set_panel.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::speed_plot_test {
 
 class SpeedPlotTest : public QObject {
   Q_OBJECT
@@ -68,7 +66,8 @@ class SpeedPlotTest : public QObject {
   std::unique_ptr<ui::LevelSetPanel> panel_;
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(SpeedPlotTest)
 
-TIDEMARK_TEST(tidemark::SpeedPlotTest)
+}  // namespace tidemark::test::speed_plot_test
+
 #include "speed_plot_test.moc"

@@ -12,9 +12,7 @@
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/region_table.h"
 
-namespace tidemark {
-
-using namespace test;
+namespace tidemark::test::statistics_panel_test {
 
 class StatisticsPanelTest : public QObject {
   Q_OBJECT
@@ -143,7 +141,8 @@ class StatisticsPanelTest : public QObject {
   std::unique_ptr<ui::StatisticsPanel> panel_;
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(StatisticsPanelTest)
 
-TIDEMARK_TEST(tidemark::StatisticsPanelTest)
+}  // namespace tidemark::test::statistics_panel_test
+
 #include "statistics_panel_test.moc"

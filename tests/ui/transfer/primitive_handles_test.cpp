@@ -6,7 +6,7 @@
 #include "ui/transfer/primitive_handles.h"
 #include "ui/widgets/plot_axis.h"
 
-using namespace tidemark;
+namespace tidemark::test::primitive_handles_test {
 
 namespace {
 
@@ -148,4 +148,7 @@ class PrimitiveHandlesTest : public QObject {
 };
 
 TIDEMARK_TEST(PrimitiveHandlesTest)
+
+}  // namespace tidemark::test::primitive_handles_test
+
 #include "primitive_handles_test.moc"

@@ -5,8 +5,7 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::transfer_editor_test {
 
 namespace {
 
@@ -329,4 +328,7 @@ class TransferEditorTest : public QObject {
 };
 
 TIDEMARK_TEST(TransferEditorTest)
+
+}  // namespace tidemark::test::transfer_editor_test
+
 #include "transfer_editor_test.moc"

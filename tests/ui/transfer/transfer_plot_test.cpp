@@ -2,8 +2,7 @@
 #include "editor_fixture.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
-using namespace tidemark::test;
+namespace tidemark::test::transfer_plot_test {
 
 class TransferPlotTest : public QObject {
   Q_OBJECT
@@ -252,4 +251,7 @@ class TransferPlotTest : public QObject {
 };
 
 TIDEMARK_TEST(TransferPlotTest)
+
+}  // namespace tidemark::test::transfer_plot_test
+
 #include "transfer_plot_test.moc"

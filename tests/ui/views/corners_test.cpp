@@ -9,7 +9,7 @@
 #include "ui/views/slice_view.h"
 #include "ui/views/volume_view.h"
 
-using namespace tidemark;
+namespace tidemark::test::corners_test {
 
 namespace {
 
@@ -160,4 +160,7 @@ class CornersTest : public QObject {
 };
 
 TIDEMARK_TEST(CornersTest)
+
+}  // namespace tidemark::test::corners_test
+
 #include "corners_test.moc"

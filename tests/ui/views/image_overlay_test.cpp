@@ -6,7 +6,7 @@
 
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::image_overlay_test {
 
 namespace {
 
@@ -127,4 +127,7 @@ class ImageOverlayTest : public QObject {
 };
 
 TIDEMARK_TEST(ImageOverlayTest)
+
+}  // namespace tidemark::test::image_overlay_test
+
 #include "image_overlay_test.moc"

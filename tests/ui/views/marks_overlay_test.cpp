@@ -8,7 +8,7 @@
 #include "engine/stroke_painting.h"
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::marks_overlay_test {
 
 namespace {
 
@@ -119,4 +119,7 @@ class MarksOverlayTest : public QObject {
 };
 
 TIDEMARK_TEST(MarksOverlayTest)
+
+}  // namespace tidemark::test::marks_overlay_test
+
 #include "marks_overlay_test.moc"

@@ -7,7 +7,7 @@
 
 #include "tests/support/test_program.h"
 
-using namespace tidemark;
+namespace tidemark::test::mask_outline_test {
 
 namespace {
 
@@ -114,4 +114,7 @@ class MaskOutlineTest : public QObject {
 };
 
 TIDEMARK_TEST(MaskOutlineTest)
+
+}  // namespace tidemark::test::mask_outline_test
+
 #include "mask_outline_test.moc"

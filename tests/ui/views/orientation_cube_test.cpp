@@ -8,7 +8,7 @@
 #include "ui/views/volume_box.h"
 #include "ui/views/volume_view.h"
 
-namespace tidemark::test {
+namespace tidemark::test::orientation_cube_test {
 namespace {
 
 QString letters(double azimuth, double elevation) {
@@ -111,7 +111,8 @@ class OrientationCubeTest : public QObject {
   }
 };
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(OrientationCubeTest)
 
-TIDEMARK_TEST(tidemark::test::OrientationCubeTest)
+}  // namespace tidemark::test::orientation_cube_test
+
 #include "orientation_cube_test.moc"

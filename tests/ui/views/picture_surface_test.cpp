@@ -12,7 +12,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 
-namespace tidemark::test {
+namespace tidemark::test::picture_surface_test {
 namespace {
 
 // Engine::pictures() is chosen when the engine is made.
@@ -244,7 +244,8 @@ void PictureSurfaceTest::a_case_is_closed_while_its_pictures_are_drawn() {
   QCOMPARE(desktop.engine().contexts_made(), 1);
 }
 
-}  // namespace tidemark::test
+TIDEMARK_TEST(PictureSurfaceTest)
 
-TIDEMARK_TEST(tidemark::test::PictureSurfaceTest)
+}  // namespace tidemark::test::picture_surface_test
+
 #include "picture_surface_test.moc"

@@ -5,7 +5,7 @@
 #include "tests/ui/panels/panel_case.h"
 #include "ui/views/slice_view.h"
 
-using namespace tidemark;
+namespace tidemark::test::slice_number_view_test {
 
 namespace {
 
@@ -121,4 +121,7 @@ class SliceNumberViewTest : public QObject {
 };
 
 TIDEMARK_TEST(SliceNumberViewTest)
+
+}  // namespace tidemark::test::slice_number_view_test
+
 #include "slice_number_view_test.moc"

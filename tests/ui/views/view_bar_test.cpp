@@ -10,7 +10,7 @@
 #include "ui/look/icons.h"
 #include "ui/views/speed_map_choice.h"
 
-using namespace tidemark;
+namespace tidemark::test::view_bar_test {
 
 class ViewBarTest : public QObject {
   Q_OBJECT
@@ -135,4 +135,7 @@ class ViewBarTest : public QObject {
 };
 
 TIDEMARK_TEST(ViewBarTest)
+
+}  // namespace tidemark::test::view_bar_test
+
 #include "view_bar_test.moc"

@@ -12,7 +12,7 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/number_text.h"
 
-namespace tidemark {
+namespace tidemark::test::number_box_test {
 
 namespace fs = std::filesystem;
 
@@ -200,7 +200,8 @@ class NumberBoxTest : public QObject {
   }
 };
 
-}  // namespace tidemark
+TIDEMARK_TEST(NumberBoxTest)
 
-TIDEMARK_TEST(tidemark::NumberBoxTest)
+}  // namespace tidemark::test::number_box_test
+
 #include "number_box_test.moc"
