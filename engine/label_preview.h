@@ -1,4 +1,4 @@
-// What labels are about to become, for views.
+// The preview of what labels are about to become, for views.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What lies between the slices of a region that were drawn.
+// The filling of slices between those that were drawn.
 #pragma once
 
 #include "core/progress.h"

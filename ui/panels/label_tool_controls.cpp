@@ -125,7 +125,6 @@ LabelToolControls::LabelToolControls(QWidget* parent) : CaseWidget(parent) {
   connect(axis_, &QComboBox::activated, this, &LabelToolControls::look_again);
   other_ = form.choice(tr("With"), tr("Whose voxels are added, taken away, or kept."));
   connect(other_, &QComboBox::activated, this, &LabelToolControls::look_again);
-  figures_ = form.note({});
   work_ = new WorkLine;
   form.wide(work_);
   connect(work_, &WorkLine::cancelled, this, [this] {
@@ -184,8 +183,8 @@ void LabelToolControls::choose_tool() {
   show_row(amount_, text && text->amount != Amount::none);
   show_row(axis_, chosen && has_axis(*chosen));
   show_row(other_, chosen && has_other(*chosen));
-  show_row(figures_, false);
-  show_row(work_, false);
+  show_row(work_, text != nullptr);
+  work_->end({});
   show_row(apply_, text != nullptr);
   if (!chosen && finisher()) finisher()->clear();
   if (proxy()) fill_others();
@@ -221,31 +220,22 @@ void LabelToolControls::look() {
   if (!finisher() || !tool()) return;
   if (labels_.empty()) return say(tr("Choose a label in the table."));
   looked_at_ = proxy()->state().label_voxels;
-  rows_->setRowVisible(figures_, false);
-  rows_->setRowVisible(work_, true);
   work_->begin(tr("Preview"));
   finisher()->begin(use(), labels_);
   show_buttons();
 }
 
 void LabelToolControls::show_preview() {
-  rows_->setRowVisible(work_, false);
   const auto& preview = finisher() ? finisher()->preview() : nullptr;
-  if (preview && tool()) {
-    const double change = preview->after_ml - preview->before_ml;
-    figures_->setText(tr("%1 ml become %2 ml (%3%4 ml).")
-                          .arg(number_text(preview->before_ml, 2), number_text(preview->after_ml, 2),
-                               change < 0.0 ? QStringLiteral("−") : QStringLiteral("+"),
-                               number_text(std::abs(change), 2)));
-  }
-  rows_->setRowVisible(figures_, preview && tool());
-  show_buttons();
+  if (!preview || !tool()) return say({});
+  const double change = preview->after_ml - preview->before_ml;
+  say(tr("%1 ml become %2 ml (%3%4 ml).")
+          .arg(number_text(preview->before_ml, 2), number_text(preview->after_ml, 2),
+               change < 0.0 ? QStringLiteral("−") : QStringLiteral("+"), number_text(std::abs(change), 2)));
 }
 
 void LabelToolControls::say(const QString& text) {
-  rows_->setRowVisible(work_, false);
-  figures_->setText(text);
-  rows_->setRowVisible(figures_, true);
+  work_->end(text);
   show_buttons();
 }
 

@@ -39,7 +39,7 @@ class LabelToolControls : public CaseWidget {
   void look_again();  // soon
   void look();        // computes the preview
   void show_preview();
-  void say(const QString& text);
+  void say(const QString& text);  // in place of the progress
   void show_buttons();
 
   QFormLayout* rows_;
@@ -48,7 +48,6 @@ class LabelToolControls : public CaseWidget {
   QComboBox* axis_;
   QComboBox* other_;
   QLabel* hint_;
-  QLabel* figures_;
   WorkLine* work_;
   QPushButton* apply_;
   QTimer soon_;

@@ -28,8 +28,8 @@ void paint_fine_lines(QPainter& painter, const QList<QLineF>& lines, const QColo
 inline constexpr QColor kTruthColour(190, 40, 255);
 // Of a state of the history that is compared: apart from these, too.
 inline constexpr QColor kComparedColour(0, 222, 190);
-// Of what a tool would make of labels.
-inline constexpr QColor kPreviewColour(255, 255, 255);
+// Of what a tool would make of labels, and of a stroke over one.
+inline constexpr QColor kPreviewColour(255, 60, 140);
 // A sphere's outline; one that takes away is dashed.
 void paint_circle(QPainter& painter, QPointF centre, double radius, bool erases);
 

@@ -156,13 +156,16 @@ void FinishLabelsStoryTest::the_brush_paints_the_chosen_label_and_no_other() {
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
   const Region first = region(desktop, 1);
-  QVERIFY(first.count() > 100);
+  const double radius = desktop.proxy().display().settings().brush_mm;
+  const VoxelRange box = first.bounds();
+  QVERIFY(static_cast<double>(box.high.x - box.low.x) > 9.0 + 2.0 * radius);  // of 1 mm
+  QVERIFY(static_cast<double>(first.count()) > 10.0 * radius);
   QCOMPARE(first.bounds().high.z - first.bounds().low.z, std::int64_t{1});  // one slice
   desktop.drag(*axial, {seed + glm::dvec3(0.0, 14.0, 0.0)}, Qt::LeftButton, Qt::ShiftModifier);
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
   const Region with_ball = region(desktop, 1);
-  QVERIFY(with_ball.bounds().high.z - with_ball.bounds().low.z > 8);  // 5 mm to either side
+  QVERIFY(static_cast<double>(with_ball.bounds().high.z - with_ball.bounds().low.z) > 2.0 * radius - 1.0);
   QVERIFY(difference(first, with_ball).empty());
   QCOMPARE(desktop.state().undo_text, QString("brush on Label 1"));
   desktop.screenshot("brush-0-label");
@@ -192,9 +195,10 @@ void FinishLabelsStoryTest::the_brush_paints_the_chosen_label_and_no_other() {
   const Region like = region(desktop, 3);
   QVERIFY(like.count() > 0);
   const float inside = volume.value(Index3(glm::round(volume.geometry.to_voxel(seed))));
+  const auto tolerance = static_cast<float>(desktop.state().parameters.range);
   like.for_each_run([&](Index3 voxel, std::int64_t length) {
     for (std::int64_t i = 0; i < length; ++i)
-      QVERIFY(std::abs(volume.value(voxel + Index3(i, 0, 0)) - inside) < 200.0F);
+      QVERIFY(std::abs(volume.value(voxel + Index3(i, 0, 0)) - inside) <= tolerance);
   });
   for (int stroke = 0; stroke < 3; ++stroke) {
     desktop.press(Qt::Key_Z, Qt::ControlModifier);
