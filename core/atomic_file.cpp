@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -25,8 +26,11 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
+std::atomic<int> sync_later{0};
+
 // Syncs a file or a folder; returns 0 or errno.
 int sync_path(const fs::path& path) {
+  if (sync_later > 0) return 0;
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return errno;
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
@@ -220,6 +224,22 @@ int AtomicFolder::exchange() {
   const int error = errno;
   ::rename(older.c_str(), target_.c_str());
   return error;
+}
+
+SyncLater::SyncLater() {
+  ++sync_later;
+}
+
+SyncLater::~SyncLater() {
+  --sync_later;
+}
+
+Status sync_file_system(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
+  const int error = descriptor >= 0 && ::syncfs(descriptor) == 0 ? 0 : errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (error == 0) return {};
+  return fail(ErrorKind::write, "{}: cannot write: {}", folder.string(), reason(error));
 }
 
 Status sync_to_disk(const fs::path& path) {

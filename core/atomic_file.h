@@ -66,6 +66,20 @@ class AtomicFolder {
   FileLock lock_;  // of the folder that was made
 };
 
+// While it lives, files and folders are committed without waiting for the disk, by every thread of this
+// process. Whoever has made it syncs the file system before anybody may rely on them: many small files are
+// then on the disk in the time of one.
+class SyncLater {
+ public:
+  SyncLater();
+  ~SyncLater();
+  SyncLater(const SyncLater&) = delete;
+  SyncLater& operator=(const SyncLater&) = delete;
+};
+
+// Waits until all that was written to the file system of a folder is on the disk. Fails (ErrorKind::write).
+[[nodiscard]] Status sync_file_system(const std::filesystem::path& folder);
+
 // Waits until what was written to a file, or the names in a folder, are on the disk. Fails
 // (ErrorKind::write).
 [[nodiscard]] Status sync_to_disk(const std::filesystem::path& path);

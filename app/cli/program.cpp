@@ -69,6 +69,7 @@ void add_all(CLI::App& app, Program& program) {
   add_film(app, program);
   add_phantom(app, program);
   add_lesson(app, program);
+  add_cohort(app, program);
   add_bench(app, program);
   add_pacs(app, program);
 }

@@ -43,6 +43,7 @@ void add_render(CLI::App& app, Program& program);
 void add_film(CLI::App& app, Program& program);
 void add_phantom(CLI::App& app, Program& program);
 void add_lesson(CLI::App& app, Program& program);
+void add_cohort(CLI::App& app, Program& program);
 void add_bench(CLI::App& app, Program& program);
 void add_pacs(CLI::App& app, Program& program);
 

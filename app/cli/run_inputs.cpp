@@ -1,10 +1,10 @@
 #include "app/cli/run_inputs.h"
 
 #include "document/checksum.h"
+#include "document/truth.h"
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/load_study.h"
-#include "imaging/onto_grid.h"
 #include "solver/model.h"
 
 namespace tidemark::cli {
@@ -25,7 +25,6 @@ class Inputs {
  private:
   Status load();
   Status load_truth();
-  Status load_true_segments();
   Status suggest();
   Status make_recipe();
 
@@ -77,36 +76,13 @@ Status Inputs::load() {
 
 Status Inputs::load_truth() {
   if (!options_.truth) return {};
-  if (imaging::result_form_of(*options_.truth)) return load_true_segments();
-  auto labels = imaging::load_volume(*options_.truth, {}, console_.progress());
-  if (!labels) return pass_on(labels);
-  Mask mask{labels->geometry,
-            std::vector<std::uint8_t>(static_cast<std::size_t>(labels->geometry.voxel_count()))};
-  for (std::int64_t offset = 0; offset < labels->geometry.voxel_count(); ++offset) {
-    const float value = labels->value(offset);
-    const bool inside =
-        options_.truth_label ? value == static_cast<float>(*options_.truth_label) : value != 0.0F;
-    mask.voxels[static_cast<std::size_t>(offset)] = inside ? 1 : 0;
+  auto truth = document::load_truth(*options_.truth, options_.truth_label, results_.source->geometry,
+                                    console_.progress());
+  if (!truth && truth.error().kind == ErrorKind::usage) {
+    return fail(ErrorKind::usage, "--truth-label {}", truth.error().message);
   }
-  auto aligned = imaging::onto_grid(std::move(mask), results_.source->geometry, *options_.truth);
-  if (!aligned) return pass_on(aligned);
-  truth_ = std::move(*aligned);
-  return {};
-}
-
-// Of a DICOM segmentation or structure set: all segments, or the one of that number.
-Status Inputs::load_true_segments() {
-  auto segments = imaging::read_result(*options_.truth, &results_.source->geometry);
-  if (!segments) return pass_on(segments);
-  if (options_.truth_label) {
-    const auto count = static_cast<std::int64_t>(segments->list.size());
-    if (*options_.truth_label < 1 || *options_.truth_label > count) {
-      return fail(ErrorKind::usage, "--truth-label {}: {} has the segments 1 to {}", *options_.truth_label,
-                  *options_.truth, count);
-    }
-    segments->list = {segments->list[static_cast<std::size_t>(*options_.truth_label - 1)]};
-  }
-  truth_ = imaging::union_of(*segments);
+  if (!truth) return pass_on(truth);
+  truth_ = std::move(*truth);
   return {};
 }
 

@@ -1,18 +1,9 @@
 #include "app/cli/sweep_files.h"
 
-#include <algorithm>
+#include "core/csv.h"
 
 namespace tidemark::cli {
 namespace {
-
-// In quotes where commas or quotes are in it.
-std::string csv_field(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
-  return quoted + "\"";
-}
 
 // The values of the run's axes, the first one first.
 std::vector<double> values_of(const document::Sweep& sweep, int column, int row) {

@@ -1,0 +1,134 @@
+#include "document/cohort/bids.h"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include "core/atomic_file.h"
+#include "core/json/json.h"
+
+namespace tidemark::cohort {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kVersion = "1.9.0";
+
+std::string letters_of(std::string_view text) {
+  std::string letters;
+  for (const char c : text) {
+    const bool known = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (known) letters += c;
+  }
+  return letters.empty() ? "x" : letters;
+}
+
+// The place of a mask.
+struct MaskName {
+  std::string folder;  // "sub-01/ses-2/anat"
+  std::string stem;    // "sub-01_ses-2_desc-tidemarkT1w_mask"
+};
+
+// The parts of "sub-01_ses-2_run-1_T1w", the last one being the suffix.
+std::vector<std::string> parts_of(const std::string& id) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= id.size();) {
+    const std::size_t end = std::min(id.find('_', at), id.size());
+    parts.push_back(id.substr(at, end - at));
+    at = end + 1;
+  }
+  return parts;
+}
+
+// By the id alone: planning has made it of the file's name.
+MaskName name_of_mask(const std::string& id) {
+  const std::vector<std::string> parts = parts_of(id);
+  const bool is_bids =
+      parts.size() > 1 && parts.front().starts_with("sub-") &&
+      std::all_of(parts.begin(), parts.end() - 1, [](const std::string& part) {
+        const std::size_t hyphen = part.find('-');
+        return hyphen != std::string::npos && letters_of(part.substr(hyphen)) == part.substr(hyphen + 1);
+      });
+  if (!is_bids) {
+    const std::string subject = "sub-" + letters_of(id);
+    return {subject + "/anat", subject + "_desc-tidemark_mask"};
+  }
+  MaskName name{parts.front(), {}};
+  if (parts[1].starts_with("ses-")) name.folder += "/" + parts[1];
+  name.folder += "/anat";
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    if (!parts[i].starts_with("desc-")) name.stem += parts[i] + "_";
+  }
+  name.stem += "desc-tidemark" + letters_of(parts.back()) + "_mask";
+  return name;
+}
+
+std::string text_of(const Json& object) {
+  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json description_of(const BidsOptions& options) {
+  return {{"Name", "Tidemark masks"},
+          {"BIDSVersion", kVersion},
+          {"DatasetType", "derivative"},
+          {"GeneratedBy", Json::array({{{"Name", "Tidemark"}, {"Version", options.program}}})},
+          {"SourceDatasets", Json::array({{{"URL", "file://" + options.source}}})},
+          {"DatasetLinks", {{"raw", "file://" + options.source}}}};
+}
+
+Json sidecar_of(const CaseStatus& status, const BidsOptions& options) {
+  const fs::path below = fs::path(status.input).lexically_relative(options.source);
+  const bool is_raw = !below.empty() && !below.string().starts_with("..");
+  Json object{{"Type", "ROI"},
+              {"Sources", Json::array({is_raw ? "bids:raw:" + below.generic_string() : status.input})},
+              {"SourceChecksum", status.input_checksum},
+              {"RecipeChecksum", status.recipe_checksum}};
+  if (status.figures) object["VolumeMl"] = status.figures->volume_ml;
+  return object;
+}
+
+// A second name where the disk allows it: the masks are there once.
+Status place_mask(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (error) fs::copy_file(from, to, error);
+  if (!error) return {};
+  return fail(ErrorKind::write, "{}: cannot write: {}", to.string(), error.message());
+}
+
+}  // namespace
+
+Result<std::int64_t> write_bids(const CohortFolder& folder, const Review& review, const BidsOptions& options,
+                                const fs::path& to, const Progress& progress) {
+  auto target = AtomicFolder::create(to);
+  if (!target) return pass_on(target);
+  const fs::path root = target->temporary_path();
+  std::set<std::string> used;
+  std::int64_t count = 0;
+  {
+    const SyncLater later;
+    for (const ReviewedCase& one : review.cases) {
+      if (progress.cancelled()) return cancelled_error();
+      if (one.status.outcome != CaseOutcome::done) continue;
+      MaskName name = name_of_mask(one.status.id);
+      // Ids differ, but what is left of them may not.
+      for (int again = 2; !used.insert(name.folder + name.stem).second; ++again) {
+        const std::string subject = fmt::format("sub-{}x{}", letters_of(one.status.id), again);
+        name = {subject + "/anat", subject + "_desc-tidemark_mask"};
+      }
+      std::error_code error;
+      fs::create_directories(root / name.folder, error);
+      const fs::path stem = root / name.folder / name.stem;
+      TIDEMARK_TRY(place_mask(folder.case_folder(one.status.id) / "mask.nii.gz", stem.string() + ".nii.gz"));
+      TIDEMARK_TRY(write_file(stem.string() + ".json", text_of(sidecar_of(one.status, options))));
+      ++count;
+    }
+    TIDEMARK_TRY(write_file(root / "dataset_description.json", text_of(description_of(options))));
+    TIDEMARK_TRY(write_file(root / "README", "Masks by Tidemark, a level-set surface. Research use only.\n"));
+  }
+  TIDEMARK_TRY(sync_file_system(root));
+  TIDEMARK_TRY(target->commit());
+  return count;
+}
+
+}  // namespace tidemark::cohort

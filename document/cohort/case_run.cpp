@@ -1,0 +1,410 @@
+#include "document/cohort/case_run.h"
+
+#include <stdlib.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "core/atomic_file.h"
+#include "core/stopwatch.h"
+#include "core/text_file.h"
+#include "core/unfinished.h"
+#include "core/without_exceptions.h"
+#include "document/checksum.h"
+#include "document/cohort/case_picture.h"
+#include "document/cohort/lease.h"
+#include "document/evolution.h"
+#include "document/region_statistics.h"
+#include "document/segment_meshes.h"
+#include "document/speed_map.h"
+#include "document/truth.h"
+#include "imaging/files/png_file.h"
+#include "imaging/files/volume_file.h"
+#include "imaging/filters/filters.h"
+#include "imaging/filters/suggest_start.h"
+#include "imaging/load_study.h"
+#include "imaging/results/results.h"
+#include "imaging/surface/surface.h"
+
+namespace tidemark::cohort {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of the picture of a case, in pixels: small volumes have no more to show.
+int picture_side(const Geometry& grid) {
+  constexpr std::int64_t kLeast = 48;
+  constexpr std::int64_t kMost = 128;
+  return static_cast<int>(std::clamp(std::max({grid.size.x, grid.size.y, grid.size.z}), kLeast, kMost));
+}
+
+// The case while it is computed.
+class Case {
+ public:
+  Case(const CaseRun& run, const WorkRow& row, fs::path folder, const Progress& progress)
+      : run_(run), row_(row), folder_(std::move(folder)), progress_(progress) {}
+
+  Status compute();
+  [[nodiscard]] CaseStatus& status() { return status_; }
+
+ private:
+  Status take_recipe();
+  Status load();
+  Status fill_in();
+  Status suggest();
+  Status start_from_mask();
+  Status set_seeds();
+  Status set_drive();
+  Status evolve();
+  Status measure();
+  void warn(const document::Evolution& evolution);
+  Status write();
+  Status write_outputs();
+  Status write_dicom(CaseOutput output, const fs::path& file);
+  Status write_picture();
+  Status write_recipe();
+
+  const CaseRun& run_;
+  const WorkRow& row_;
+  fs::path folder_;
+  Progress progress_;
+  CaseStatus status_;
+  std::optional<SharedRecipe> own_recipe_;
+  const SharedRecipe* shared_ = nullptr;  // null: none
+  imaging::Series series_;
+  std::shared_ptr<const Volume> source_;  // as the solver sees it
+  document::Recipe recipe_;
+  solver::Field phi_;
+  Mask mask_;
+};
+
+Status Case::compute() {
+  for (const auto step :
+       {&Case::take_recipe, &Case::load, &Case::fill_in, &Case::evolve, &Case::measure, &Case::write}) {
+    TIDEMARK_TRY((this->*step)());
+    if (progress_.cancelled()) return cancelled_error();
+  }
+  return {};
+}
+
+Status Case::take_recipe() {
+  status_.recipe_checksum = run_.plan.recipe_checksum;
+  if (run_.plan.recipe) shared_ = &*run_.plan.recipe;
+  if (row_.recipe.empty()) return {};
+  const auto text = read_text_file(row_.recipe, document::Recipe::kLargestFile);
+  if (!text) return pass_on(text);
+  auto own = SharedRecipe::parse(*text, row_.recipe.string());
+  if (!own) return pass_on(own);
+  status_.recipe_checksum = document::sha256(std::as_bytes(std::span(*text)));
+  own_recipe_ = std::move(*own);
+  shared_ = &*own_recipe_;
+  return {};
+}
+
+Status Case::load() {
+  auto study = imaging::load_with_series(row_.input, row_.series, progress_);
+  if (!study) return pass_on(study);
+  series_ = std::move(study->series);
+  status_.remarks = study->volume.changes;
+  status_.input_checksum = document::checksum_of(study->volume);
+  recipe_.source = {study->volume.geometry.size, study->volume.geometry.spacing_mm, row_.series,
+                    status_.input_checksum, series_.policy};
+  const double smooth_mm = row_.smooth_mm.value_or(shared_ != nullptr ? shared_->smoothed_mm() : 0.0);
+  recipe_.smoothed_mm = smooth_mm;
+  Result<Volume> volume = std::move(study->volume);
+  if (smooth_mm > 0.0) volume = imaging::smooth(*volume, smooth_mm);
+  if (!volume) return pass_on(volume);
+  source_ = std::make_shared<const Volume>(std::move(*volume));
+  return {};
+}
+
+Status Case::fill_in() {
+  recipe_.parameters = parameters_of(row_, shared_);
+  recipe_.steps = row_.steps.value_or(row_.max_steps.value_or(solver::kMostStepsToRest));
+  if (shared_ != nullptr && !row_.has_start() && !row_.auto_start) recipe_.start = shared_->start();
+  recipe_.start.levels =
+      static_cast<int>(row_.levels.value_or(shared_ != nullptr ? shared_->start().levels : 1));
+  if (row_.threshold) {
+    recipe_.start.from = document::ThresholdStart{row_.threshold->first, row_.threshold->second};
+  }
+  TIDEMARK_TRY(start_from_mask());
+  TIDEMARK_TRY(set_seeds());
+  TIDEMARK_TRY(set_drive());
+  return suggest();
+}
+
+Status Case::start_from_mask() {
+  if (row_.mask.empty()) return {};
+  auto loaded = imaging::load_any_mask(row_.mask, &source_->geometry, progress_);
+  if (!loaded) return pass_on(loaded);
+  for (const std::string& change : loaded->changes) status_.remarks.push_back("mask: " + change);
+  document::MaskStart start{std::make_shared<const Mask>(std::move(loaded->mask)),
+                            row_.mask.filename().string()};
+  const auto within_mm = row_.within_mm       ? row_.within_mm
+                         : shared_ != nullptr ? shared_->within_mm()
+                                              : std::nullopt;
+  if (within_mm) {
+    auto refined = document::limited(std::move(start), *within_mm);
+    if (!refined) return pass_on(refined);
+    start = std::move(*refined);
+  }
+  recipe_.start.from = std::move(start);
+  return {};
+}
+
+Status Case::set_seeds() {
+  for (const Seed& seed : row_.seeds) {
+    recipe_.start.seeds.push_back({source_->geometry.to_patient(seed.centre), seed.radius_mm});
+  }
+  for (const Seed& seed : row_.seeds_mm) recipe_.start.seeds.push_back({seed.centre, seed.radius_mm});
+  return document::check_spheres(recipe_.start, source_->geometry);
+}
+
+Status Case::set_drive() {
+  document::Drive drive;
+  if (shared_ != nullptr) drive.setting = shared_->setting();
+  if (!row_.speed_map.empty()) {
+    auto map = document::load_speed_map(row_.speed_map, source_->geometry, progress_);
+    if (!map) return pass_on(map);
+    drive.map = std::move(*map);
+  }
+  if (!is_plain(drive)) recipe_.drive = std::make_shared<const document::Drive>(std::move(drive));
+  return {};
+}
+
+// What neither the row nor the recipe has, from the volume itself.
+Status Case::suggest() {
+  if (!row_.auto_start) return {};
+  imaging::StartHints hints;
+  if (row_.target || shared_ != nullptr) hints.target = recipe_.parameters.target;
+  if (row_.range || shared_ != nullptr) hints.range = recipe_.parameters.range;
+  if (!recipe_.start.seeds.empty()) {
+    const glm::dvec3 voxel = source_->geometry.to_voxel(recipe_.start.seeds.front().centre_mm);
+    hints.seed = glm::clamp(Index3(glm::round(voxel)), Index3(0), source_->geometry.size - Index3(1));
+  }
+  const auto found = imaging::suggest_start(*source_, hints, progress_);
+  if (!found)
+    return fail(found.error().kind, "{}: auto_start: {}", row_.input.string(), found.error().message);
+  if (recipe_.start.empty()) {
+    recipe_.start.seeds.push_back({source_->geometry.to_patient(glm::dvec3(found->voxel)), found->radius_mm});
+  }
+  if (!hints.target) recipe_.parameters.target = found->target;
+  if (!hints.range) recipe_.parameters.range = found->range;
+  if (!row_.alpha && shared_ == nullptr) recipe_.parameters.alpha = found->alpha;
+  return {};
+}
+
+Status Case::evolve() {
+  const double smoothed_mm = std::exchange(recipe_.smoothed_mm, 0.0);  // by load(): evolve() smooths nothing
+  solver::ExecutorOptions options;
+  options.threads = run_.threads;
+  if (run_.memory_bytes > 0) options.memory_budget_bytes = run_.memory_bytes;
+  auto evolution =
+      document::evolve(recipe_, source_, {solver::ExecutorKind::host, options, !row_.steps}, progress_);
+  if (!evolution) return pass_on(evolution);
+  recipe_.smoothed_mm = smoothed_mm;
+  recipe_.executor = evolution->executor;
+  recipe_.steps = evolution->advance.steps;
+  CaseFigures figures;
+  figures.volume_ml = evolution->surface.volume_ml;
+  figures.surface_mm2 = evolution->surface.surface_mm2;
+  figures.voxels_inside = evolution->surface.voxels_inside;
+  figures.steps = evolution->advance.steps;
+  figures.solver_seconds = evolution->advance.seconds;
+  figures.solver_outcome = document::name_of(evolution->outcome);
+  figures.unit = source_->unit;
+  status_.figures = figures;
+  phi_ = std::move(evolution->phi);
+  mask_ = phi_.mask();
+  warn(*evolution);
+  return {};
+}
+
+bool touches_border(const Mask& mask) {
+  const Geometry& grid = mask.geometry;
+  for (std::int64_t offset = 0; offset < grid.voxel_count(); ++offset) {
+    if (mask.voxels[static_cast<std::size_t>(offset)] == 0) continue;
+    const Index3 voxel = grid.voxel_at(offset);
+    for (int axis = 0; axis < 3; ++axis) {
+      // An axis of few voxels has nothing but a border.
+      if (grid.size[axis] > 2 && (voxel[axis] == 0 || voxel[axis] == grid.size[axis] - 1)) return true;
+    }
+  }
+  return false;
+}
+
+void Case::warn(const document::Evolution& evolution) {
+  using document::Outcome;
+  const auto when = [&](bool holds, CaseWarning warning) {
+    if (holds) status_.warnings.push_back(warning);
+  };
+  const Outcome outcome = evolution.outcome;
+  when(outcome == Outcome::vanished || outcome == Outcome::seeded_outside, CaseWarning::vanished);
+  when(outcome == Outcome::filled_volume, CaseWarning::filled);
+  when(!row_.steps && outcome == Outcome::unfinished, CaseWarning::not_converged);
+  when(touches_border(mask_), CaseWarning::touches_border);
+}
+
+Status Case::measure() {
+  document::ValueSums sums;
+  // The sums want stored values: those of a smoothed volume are its own.
+  std::visit(
+      [&](const auto& voxels) {
+        for (std::size_t i = 0; i < voxels.size(); ++i) {
+          if (mask_.voxels[i] != 0) sums.add(static_cast<double>(voxels[i]));
+        }
+      },
+      source_->voxels);
+  if (sums.voxels > 0) status_.figures->mean_inside = sums.result(*source_).mean;
+  if (row_.truth.empty()) return {};
+  const auto truth = document::load_truth(row_.truth, row_.truth_label, source_->geometry, progress_);
+  if (!truth) return pass_on(truth);
+  status_.figures->dice = dice(mask_, *truth);
+  return {};
+}
+
+Status Case::write_picture() {
+  const CasePicture picture = case_picture(*source_, mask_, picture_side(source_->geometry));
+  return imaging::write_png_file(picture.width, picture.height, picture.pixels, folder_ / "overview.png");
+}
+
+// A start that is too large for a file is no reason to lose the case.
+Status Case::write_recipe() {
+  const auto text = recipe_.to_text();
+  if (!text) {
+    status_.remarks.push_back("recipe.json: is left out: " + text.error().message);
+    return {};
+  }
+  status_.files.emplace_back("recipe.json");
+  return write_file(folder_ / "recipe.json", *text);
+}
+
+Status Case::write_dicom(CaseOutput output, const fs::path& file) {
+  imaging::Segments segments = imaging::segments_of(mask_, "Segment");
+  segments.list.front().phi = std::make_shared<const Volume>(phi_.to_volume());
+  const std::vector<fs::path> sources = imaging::dicom_files_of(series_);
+  Status written = output == CaseOutput::segmentation
+                       ? imaging::write_segmentation(segments, sources, file, progress_)
+                       : imaging::write_structure_set(segments, sources, file, progress_);
+  // A grid that DICOM cannot describe is no lack of memory.
+  if (!written && written.error().kind == ErrorKind::capability) written.error().kind = ErrorKind::input;
+  return written;
+}
+
+Status Case::write_outputs() {
+  for (const CaseOutput output : run_.plan.outputs) {
+    constexpr const char* kFiles[] = {"seg.dcm", "rtstruct.dcm", "surface.stl", "phi.nii.gz"};
+    const std::string name = kFiles[static_cast<std::size_t>(output)];
+    const fs::path file = folder_ / name;
+    // Without a voxel inside there is no segment and no surface.
+    if (status_.figures->voxels_inside == 0 && output != CaseOutput::level_set) continue;
+    switch (output) {
+      case CaseOutput::segmentation:
+      case CaseOutput::structure_set:
+        TIDEMARK_TRY(write_dicom(output, file));
+        break;
+      case CaseOutput::surface: {
+        const auto mesh = document::mesh_of(phi_);
+        if (!mesh) return pass_on(mesh);
+        TIDEMARK_TRY(imaging::write_mesh(*mesh, file));
+        break;
+      }
+      case CaseOutput::level_set:
+        TIDEMARK_TRY(imaging::write_volume_file(phi_.to_volume(), file));
+    }
+    status_.files.push_back(name);
+  }
+  return {};
+}
+
+Status Case::write() {
+  status_.files.emplace_back("mask.nii.gz");
+  TIDEMARK_TRY(imaging::write_mask_file(mask_, folder_ / "mask.nii.gz"));
+  TIDEMARK_TRY(write_outputs());
+  TIDEMARK_TRY(write_recipe());
+  if (!run_.plan.pictures) return {};
+  status_.files.emplace_back("overview.png");
+  return write_picture();
+}
+
+CaseOutcome outcome_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::usage:
+    case ErrorKind::input:
+      return CaseOutcome::refused;
+    case ErrorKind::capability:
+      return CaseOutcome::out_of_memory;
+    default:
+      return CaseOutcome::failed;
+  }
+}
+
+std::int64_t peak_memory_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+Result<CaseStatus> run_case(const CaseRun& run, const WorkRow& row, const fs::path& folder,
+                            const Progress& progress) {
+  const Stopwatch watch;
+  Case one(run, row, folder, progress);
+  const Status computed = without_exceptions([&]() -> Status { return one.compute(); });
+  CaseStatus& status = one.status();
+  if (!computed) {
+    const Error& error = computed.error();
+    if (error.kind == ErrorKind::write || error.kind == ErrorKind::cancelled) return tl::unexpected(error);
+    status.outcome = outcome_of(error.kind);
+    status.reason = error.message;
+    status.figures.reset();
+    status.warnings.clear();
+    status.files.clear();
+  } else {
+    status.outcome = CaseOutcome::done;
+  }
+  status.id = row.id;
+  status.input = row.input.string();
+  status.series = row.series;
+  status.program = run.program;
+  status.machine = this_machine();
+  status.finished = utc_now();
+  status.seconds = watch.seconds();
+  status.peak_memory_bytes = peak_memory_bytes();
+  return std::move(status);
+}
+
+void warm_up(const CaseRun& run) {
+  std::string name = (fs::temp_directory_path() / "tidemark-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) return;
+  const fs::path folder = name;
+  const Unfinished unfinished(folder);
+  {
+    const SyncLater later;
+    Volume volume;
+    volume.geometry.size = Index3(8);
+    std::vector<std::int16_t> voxels(512);
+    for (std::size_t i = 0; i < voxels.size(); ++i) voxels[i] = i % 8 < 4 ? 100 : 0;
+    volume.voxels = std::move(voxels);
+    const fs::path input = folder / "volume.nii.gz";
+    WorkRow row;
+    row.input = input;
+    row.seeds.push_back({glm::dvec3(2.0), 2.0});
+    row.target = 100.0;
+    row.range = 50.0;
+    row.steps = 4;
+    const CohortPlan plan{{}, {}, {}, run.plan.pictures, {}, {}, {}};
+    // What goes wrong here goes wrong in each case, too, and is noted there.
+    if (imaging::write_volume_file(volume, input)) {
+      const auto status = run_case({plan, 1, 0, {}}, row, folder);
+      if (status) static_cast<void>(status->to_text());
+    }
+  }
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+}
+
+}  // namespace tidemark::cohort

@@ -1,0 +1,44 @@
+// The run of a cohort: what is not done is computed, in processes of its own, several cases at once.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "core/progress.h"
+#include "document/cohort/case_status.h"
+#include "document/cohort/cohort_folder.h"
+
+namespace tidemark::cohort {
+
+struct RunOptions {
+  int jobs = 1;            // cases at once
+  std::int64_t shard = 1;  // of `shards`: every shards-th row, from 1
+  std::int64_t shards = 1;
+  double timeout_s = 0.0;         // of a case; 0: none
+  std::int64_t memory_bytes = 0;  // of a case, see Worker; 0: no limit
+  bool retry = false;             // cases again that have no result, once
+  double stale_after_s = 300.0;   // see Lease
+  std::string program;            // version, for the status of a case that could not write its own
+};
+
+// Writes what there is to write of a case into the folder, in another process. An error stops the whole
+// run: what is wrong with the case alone is in the status.
+using ComputeCase =
+    std::function<Result<CaseStatus>(const WorkRow& row, const std::filesystem::path& folder)>;
+
+struct RunTally {
+  std::int64_t rows = 0;          // of the shard
+  std::int64_t before = 0;        // that were done before
+  std::int64_t elsewhere = 0;     // that other programs hold, or have done meanwhile
+  std::int64_t outcomes[5] = {};  // computed now, by CaseOutcome
+  [[nodiscard]] std::int64_t computed() const;
+  [[nodiscard]] std::int64_t without_result() const;  // of those
+};
+
+// A case appears in cases/ whole and synced, or not at all, and never twice. Fails with ErrorKind::cancelled
+// when it is stopped: what was begun is given back. Fails with ErrorKind::write and as compute() does, after
+// the cases that were complete have been kept.
+Result<RunTally> run_cohort(const CohortFolder& folder, const WorkList& list, const RunOptions& options,
+                            const ComputeCase& compute, const Progress& progress = {});
+
+}  // namespace tidemark::cohort

@@ -1,0 +1,41 @@
+#include "document/truth.h"
+
+#include "imaging/load_study.h"
+#include "imaging/onto_grid.h"
+#include "imaging/results/results.h"
+
+namespace tidemark::document {
+namespace {
+
+Result<Mask> true_segments(const std::filesystem::path& file, std::optional<std::int64_t> label,
+                           const Geometry& grid) {
+  auto segments = imaging::read_result(file, &grid);
+  if (!segments) return pass_on(segments);
+  if (label) {
+    const auto count = static_cast<std::int64_t>(segments->list.size());
+    if (*label < 1 || *label > count) {
+      return fail(ErrorKind::usage, "{}: {} has the segments 1 to {}", *label, file.string(), count);
+    }
+    segments->list = {segments->list[static_cast<std::size_t>(*label - 1)]};
+  }
+  return imaging::union_of(*segments);
+}
+
+}  // namespace
+
+Result<Mask> load_truth(const std::filesystem::path& file, std::optional<std::int64_t> label,
+                        const Geometry& grid, const Progress& progress) {
+  if (imaging::result_form_of(file)) return true_segments(file, label, grid);
+  const auto labels = imaging::load_volume(file, {}, progress);
+  if (!labels) return pass_on(labels);
+  Mask mask{labels->geometry,
+            std::vector<std::uint8_t>(static_cast<std::size_t>(labels->geometry.voxel_count()))};
+  for (std::int64_t offset = 0; offset < labels->geometry.voxel_count(); ++offset) {
+    const float value = labels->value(offset);
+    const bool inside = label ? value == static_cast<float>(*label) : value != 0.0F;
+    mask.voxels[static_cast<std::size_t>(offset)] = inside ? 1 : 0;
+  }
+  return imaging::onto_grid(std::move(mask), grid, file.string());
+}
+
+}  // namespace tidemark::document

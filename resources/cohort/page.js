@@ -1,0 +1,72 @@
+'use strict';
+(() => {
+  const cards = [...document.querySelectorAll('article')];
+  const key = 'tidemark-cohort:' + location.pathname;
+  let decisions = {};
+  try { decisions = JSON.parse(localStorage.getItem(key)) || {}; } catch (error) { decisions = {}; }
+  let saved = true;
+
+  const show = (card) => {
+    const one = decisions[card.dataset.id] || {};
+    card.classList.toggle('accept', one.decision === 'accept');
+    card.classList.toggle('reject', one.decision === 'reject');
+    const words = { accept: '✓ accepted', reject: '✗ rejected' }[one.decision] || '';
+    card.querySelector('.verdict').textContent = [words, one.comment].filter(Boolean).join(': ');
+  };
+  const count = () => {
+    const all = Object.values(decisions);
+    const of = (word) => all.filter((one) => one.decision === word).length;
+    document.getElementById('count').textContent =
+      `${of('accept')} accepted, ${of('reject')} rejected, ${cards.length} cases`;
+  };
+  const change = (card, part) => {
+    const one = { ...decisions[card.dataset.id], ...part };
+    if (one.decision || one.comment) decisions[card.dataset.id] = one; else delete decisions[card.dataset.id];
+    saved = false;
+    try { localStorage.setItem(key, JSON.stringify(decisions)); } catch (error) { /* a full or closed store */ }
+    show(card);
+    count();
+  };
+  const go = (card, by) => {
+    const at = cards.indexOf(card);
+    const next = cards[Math.min(cards.length - 1, Math.max(0, at + by))];
+    if (next) { next.focus({ preventScroll: true }); next.scrollIntoView({ block: 'nearest' }); }
+  };
+  // As a table's field, and never a formula of a spreadsheet.
+  const field = (text) => '"' + (/^[=+\-@\t\r]/.test(text) ? "'" : '') + text.replace(/"/g, '""') + '"';
+
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const here = document.activeElement.closest('article');
+    const card = here || cards[0];
+    if (!card) return;
+    const act = {
+      j: () => go(here || null, 1),
+      k: () => go(card, -1),
+      a: () => { change(card, { decision: 'accept' }); go(card, 1); },
+      r: () => { change(card, { decision: 'reject' }); go(card, 1); },
+      u: () => change(card, { decision: '', comment: '' }),
+      c: () => {
+        const comment = prompt('Comment on ' + card.dataset.id, (decisions[card.dataset.id] || {}).comment || '');
+        if (comment !== null) change(card, { comment: comment.slice(0, 1000) });
+      },
+    }[event.key];
+    if (act) { event.preventDefault(); act(); }
+  });
+  document.getElementById('save').addEventListener('click', () => {
+    const lines = ['id,decision,comment'];
+    for (const card of cards) {
+      const one = decisions[card.dataset.id];
+      if (one) lines.push([card.dataset.id, one.decision || '', field(one.comment || '')].join(','));
+    }
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([lines.join('\r\n') + '\r\n'], { type: 'text/csv' }));
+    link.download = 'decisions.csv';
+    link.click();
+    URL.revokeObjectURL(link.href);
+    saved = true;
+  });
+  window.addEventListener('beforeunload', (event) => { if (!saved) event.preventDefault(); });
+  for (const card of cards) if (decisions[card.dataset.id]) show(card);
+  count();
+})();
