@@ -1,5 +1,7 @@
 #include "ui/main/actions.h"
 
+#include <algorithm>
+
 #include "engine/case_proxy.h"
 #include "ui/look/icons.h"
 #include "ui/settings.h"
@@ -249,7 +251,10 @@ void Actions::make_windows() {
 }
 
 QAction* Actions::tool(engine::Tool tool) const {
-  return tools->actions().at(static_cast<int>(tool));
+  const QList<QAction*> all = tools->actions();
+  return *std::find_if(all.begin(), all.end(), [&](const QAction* action) {
+    return action->data().toInt() == static_cast<int>(tool);
+  });
 }
 
 void Actions::follow(engine::CaseProxy* proxy) {

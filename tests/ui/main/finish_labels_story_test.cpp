@@ -152,6 +152,7 @@ void FinishLabelsStoryTest::the_brush_paints_the_chosen_label_and_no_other() {
   // By its key, without the panel: the first stroke makes a label, the next one goes on with it.
   desktop.press(Qt::Key_Q);
   QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::label);
+  QVERIFY(desktop.menu_entry("Tools", "Label brush")->isChecked());
   desktop.drag(*axial, {seed, seed + glm::dvec3(10.0, 0.0, 0.0)});
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
