@@ -101,8 +101,9 @@ void OneModelStoryTest::a_tool_is_the_same_in_all_bars() {
   for (qsizetype tool = 0; tool < tools.size(); ++tool) {
     // From the menu of one bar after the other.
     buttons[tool % 3]->menu()->actions().at(tool)->trigger();
-    QCOMPARE(desktop.proxy().display().settings().tool, static_cast<engine::Tool>(tool));
+    QCOMPARE(static_cast<int>(desktop.proxy().display().settings().tool), tools[tool]->data().toInt());
     QVERIFY(tools[tool]->isChecked());
+    QCOMPARE(desktop.window().actions().tools->checkedAction(), tools[tool]);
     for (const QToolButton* button : buttons) QVERIFY(button->toolTip().contains(tools[tool]->toolTip()));
   }
 }
