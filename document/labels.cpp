@@ -1,6 +1,7 @@
 #include "document/labels.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/label_colour.h"
@@ -19,6 +20,25 @@ Result<Label> new_label(const std::vector<Label>& list, std::string name) {
   }
   return fail(ErrorKind::usage, "there are 255 labels already");
 }
+
+// Room for the voxels of a grid, which goes again unless something is put there.
+class Room {
+ public:
+  Room(std::vector<std::uint8_t>& voxels, std::int64_t count) : voxels_(voxels), was_empty_(voxels.empty()) {
+    voxels_.resize(static_cast<std::size_t>(count));
+  }
+  ~Room() {
+    if (was_empty_ && !kept_) std::vector<std::uint8_t>().swap(voxels_);
+  }
+  Room(const Room&) = delete;
+  Room& operator=(const Room&) = delete;
+  void keep() { kept_ = true; }
+
+ private:
+  std::vector<std::uint8_t>& voxels_;
+  bool was_empty_;
+  bool kept_ = false;
+};
 
 }  // namespace
 
@@ -46,9 +66,10 @@ class LabelsChange : public Change {
   }
   Status redo() override {
     labels_.list_ = list_after_;
-    put(runs_.begin(), runs_.end(), &Labels::Run::after);
+    put_runs();
     return {};
   }
+  void put_runs() { put(runs_.begin(), runs_.end(), &Labels::Run::after); }
   [[nodiscard]] std::int64_t bytes() const override {
     return static_cast<std::int64_t>(sizeof(*this) + runs_.size() * sizeof(Labels::Run) +
                                      (list_before_.size() + list_after_.size()) * sizeof(Label));
@@ -83,13 +104,16 @@ Status Labels::change(ChangeKind kind, const std::string& name, std::vector<Labe
     TIDEMARK_TRY(history_->close());
   }
   // All that may lack memory comes first: without an entry of the history there is no change.
-  if (!runs.empty()) voxels_.resize(static_cast<std::size_t>(geometry_.voxel_count()));
+  std::optional<Room> room;
+  if (!runs.empty()) room.emplace(voxels_, geometry_.voxel_count());
   runs.shrink_to_fit();
-  auto made = std::make_unique<LabelsChange>(*this, std::move(list), std::move(runs));
+  auto made = std::make_unique<LabelsChange>(*this, list, std::move(runs));
   LabelsChange& change = *made;
-  if (history_ == nullptr) return change.redo();
-  history_->add({kind, 0, name}, std::move(made));
-  return change.redo();
+  if (history_ != nullptr) history_->add({kind, 0, name}, std::move(made));
+  list_.swap(list);
+  change.put_runs();
+  if (room) room->keep();
+  return {};
 }
 
 Result<std::uint8_t> Labels::add(std::string name) {
@@ -172,7 +196,7 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
         std::find_if(list.begin(), list.end(), [&](const Label& l) { return l.id == wanted.label; })->name;
     acceptance.label += (acceptance.label.empty() ? "" : ", ") + name;
   }
-  voxels_.resize(static_cast<std::size_t>(geometry_.voxel_count()));
+  Room room(voxels_, geometry_.voxel_count());
   std::vector<Run> runs;
   // Each region is found on top of those before it. Then they are taken back: change() puts them.
   std::size_t put_so_far = 0;
@@ -209,6 +233,7 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
   take_back();
   Status changed = change(kind, acceptance.label, std::move(list), std::move(runs));
   if (!changed) return pass_on(changed);
+  room.keep();
   return acceptance;
 }
 
