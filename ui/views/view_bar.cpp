@@ -115,10 +115,12 @@ void ViewBar::follow_state() {
 }
 
 void ViewBar::follow_tool() {
-  const auto chosen = static_cast<qsizetype>(proxy_.display().settings().tool);
-  if (chosen >= tools_.size()) return;
-  tool_->setIcon(tools_[chosen]->icon());
-  tool_->setToolTip(tr("Tool: %1").arg(tools_[chosen]->toolTip()));
+  const int tool = static_cast<int>(proxy_.display().settings().tool);
+  const auto chosen = std::find_if(tools_.begin(), tools_.end(),
+                                   [&](const QAction* action) { return action->data().toInt() == tool; });
+  if (chosen == tools_.end()) return;
+  tool_->setIcon((*chosen)->icon());
+  tool_->setToolTip(tr("Tool: %1").arg((*chosen)->toolTip()));
 }
 
 void ViewBar::resizeEvent(QResizeEvent* event) {
