@@ -1,6 +1,7 @@
 #include "ui/panels/label_tool_controls.h"
 
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QFormLayout>
 #include <QLabel>
 #include <QPushButton>
