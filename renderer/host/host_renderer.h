@@ -32,7 +32,8 @@ class HostRenderer final : public Renderer {
   using Renderer::draw;
   Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress) override;
   Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress) override;
-  // Means of four differ from one another no more than means of eight do (docs/decisions/024-host-renderer.md).
+  // Means of four differ from one another no more than means of eight do
+  // (docs/decisions/024-host-renderer.md).
   [[nodiscard]] int still_rounds() const override { return 4; }
   Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) override;
 
