@@ -18,8 +18,7 @@ Result<Comparison> compare(const Region& region, const Region& other, const Geom
   comparison.voxels = region.count();
   comparison.other_voxels = other.count();
   comparison.common = common_count(region, other);
-  const glm::dvec3 spacing = grid.spacing_mm;
-  comparison.voxel_ml = spacing.x * spacing.y * spacing.z / 1000.0;
+  comparison.voxel_ml = grid.voxel_volume_ml();
   if (progress.cancelled()) return cancelled_error();
   auto distance = solver::MeasuredSurface::of(region, grid)
                       .distance_to(solver::MeasuredSurface::of(other, grid), progress);

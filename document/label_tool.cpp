@@ -12,10 +12,6 @@
 namespace tidemark::document {
 namespace {
 
-double voxel_ml(const Geometry& grid) {
-  return grid.spacing_mm.x * grid.spacing_mm.y * grid.spacing_mm.z / 1000.0;
-}
-
 Result<Region> island_at(const Region& region, Index3 voxel, const std::string& label) {
   const imaging::Islands islands(region);
   const auto here = islands.at(voxel);
@@ -31,7 +27,7 @@ Region largest_island(const Region& region) {
 Region without_small_islands(const Region& region, double ml, const Geometry& grid) {
   const imaging::Islands islands(region);
   return islands.region_of([&](std::size_t island) {
-    return static_cast<double>(islands.voxels()[island]) * voxel_ml(grid) >= ml;
+    return static_cast<double>(islands.voxels()[island]) * grid.voxel_volume_ml() >= ml;
   });
 }
 

@@ -9,11 +9,18 @@
 namespace tidemark::document {
 namespace {
 
+// Null: there is none of that id.
+const Label* label_in(const std::vector<Label>& list, std::uint8_t id) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const Label& label) { return label.id == id; });
+  return found == list.end() ? nullptr : &*found;
+}
+
 Result<Label> new_label(const std::vector<Label>& list, std::string name) {
   for (int id = 1; id <= 255; ++id) {
-    if (std::any_of(list.begin(), list.end(), [&](const Label& other) { return other.id == id; })) continue;
     Label label;
     label.id = static_cast<std::uint8_t>(id);
+    if (label_in(list, label.id) != nullptr) continue;
     label.name = std::move(name);
     label.colour = label_colour(label.id);
     return label;
@@ -94,8 +101,7 @@ void Labels::put(const Run& run, std::uint8_t Run::*side) {
 }
 
 const Label* Labels::find(std::uint8_t id) const {
-  const auto found = std::find_if(list_.begin(), list_.end(), [&](const Label& l) { return l.id == id; });
-  return found == list_.end() ? nullptr : &*found;
+  return label_in(list_, id);
 }
 
 Status Labels::change(ChangeKind kind, const std::string& name, std::vector<Label> list,
@@ -150,9 +156,8 @@ Status Labels::remove(std::uint8_t id) {
 }
 
 Status Labels::check(const std::vector<Label>& list, const LabelRegion& wanted) const {
-  const auto label =
-      std::find_if(list.begin(), list.end(), [&](const Label& l) { return l.id == wanted.label; });
-  if (label == list.end()) return fail(ErrorKind::usage, "there is no label {}", wanted.label);
+  const Label* label = label_in(list, wanted.label);
+  if (label == nullptr) return fail(ErrorKind::usage, "there is no label {}", wanted.label);
   if (label->locked) return fail(ErrorKind::usage, "label {} is locked", label->name);
   const VoxelRange bounds = wanted.region.bounds();
   if (bounds.empty() || (geometry_.contains(bounds.low) && geometry_.contains(bounds.high - Index3(1))))
@@ -192,9 +197,7 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
       list.push_back(std::move(*label));
     }
     TIDEMARK_TRY(check(list, wanted));
-    const auto& name =
-        std::find_if(list.begin(), list.end(), [&](const Label& l) { return l.id == wanted.label; })->name;
-    acceptance.label += (acceptance.label.empty() ? "" : ", ") + name;
+    acceptance.label += (acceptance.label.empty() ? "" : ", ") + label_in(list, wanted.label)->name;
   }
   Room room(voxels_, geometry_.voxel_count());
   std::vector<Run> runs;

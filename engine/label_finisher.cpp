@@ -1,6 +1,8 @@
 #include "engine/label_finisher.h"
 
 #include <QCoreApplication>
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "engine/case_proxy.h"
@@ -20,10 +22,14 @@ Result<Preview> computed(LabelPreview preview, const Progress& progress) {
   auto regions = document::use_tool(preview.use, preview.labels, preview.from, progress);
   if (!regions) return pass_on(regions);
   preview.regions = std::move(*regions);
-  const glm::dvec3 spacing = preview.from.geometry.spacing_mm;
-  const double voxel_ml = spacing.x * spacing.y * spacing.z / 1000.0;
-  for (const std::uint8_t label : preview.labels)
-    preview.before_ml += static_cast<double>(preview.from.region(label).count()) * voxel_ml;
+  const double voxel_ml = preview.from.geometry.voxel_volume_ml();
+  std::array<bool, 256> chosen{};
+  for (const std::uint8_t label : preview.labels) chosen[label] = true;
+  if (const auto& voxels = preview.from.voxels) {
+    const auto count =
+        std::count_if(voxels->begin(), voxels->end(), [&](std::uint8_t id) { return chosen[id]; });
+    preview.before_ml = static_cast<double>(count) * voxel_ml;
+  }
   for (const document::LabelRegion& region : preview.regions)
     preview.after_ml += static_cast<double>(region.region.count()) * voxel_ml;
   return std::make_shared<const LabelPreview>(std::move(preview));

@@ -180,8 +180,7 @@ Result<Json> estimate(const std::vector<Reader>& readers, const Geometry& grid, 
       file, [&](const std::filesystem::path& name) { return imaging::write_mask_file(mask, name); });
   if (!staged) return pass_on(staged);
   Json object;
-  object["volume_ml"] = static_cast<double>(estimated->region.count()) * grid.spacing_mm.x *
-                        grid.spacing_mm.y * grid.spacing_mm.z / 1000.0;
+  object["volume_ml"] = static_cast<double>(estimated->region.count()) * grid.voxel_volume_ml();
   for (std::size_t n = 0; n < readers.size(); ++n) {
     const imaging::ReaderQuality& quality = estimated->readers[n];
     const double overlap = dice(regions[n], estimated->region);

@@ -93,8 +93,7 @@ MaskChange change_between(const Mask& before, const Mask& after) {
     change.added += before.voxels[i] == 0 && after.voxels[i] != 0 ? 1 : 0;
     change.removed += before.voxels[i] != 0 && after.voxels[i] == 0 ? 1 : 0;
   }
-  const glm::dvec3 spacing = after.geometry.spacing_mm;
-  const double voxel_ml = spacing.x * spacing.y * spacing.z / 1000.0;
+  const double voxel_ml = after.geometry.voxel_volume_ml();
   change.added_ml = static_cast<double>(change.added) * voxel_ml;
   change.removed_ml = static_cast<double>(change.removed) * voxel_ml;
   return change;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/region.h"
+
 namespace tidemark::cohort {
 namespace {
 
@@ -19,16 +21,9 @@ WindowLevel window_of(const Volume& source) {
 
 // The middle of what is inside; of the volume where nothing is.
 Index3 middle_of(const Mask& mask) {
-  Index3 low = mask.geometry.size;
-  Index3 high(-1);
-  for (std::int64_t offset = 0; offset < mask.geometry.voxel_count(); ++offset) {
-    if (mask.voxels[static_cast<std::size_t>(offset)] == 0) continue;
-    const Index3 voxel = mask.geometry.voxel_at(offset);
-    low = glm::min(low, voxel);
-    high = glm::max(high, voxel);
-  }
-  if (high.x < 0) return mask.geometry.size / std::int64_t{2};
-  return (low + high) / std::int64_t{2};
+  const VoxelRange inside = Region(mask).bounds();
+  if (inside.empty()) return mask.geometry.size / std::int64_t{2};
+  return (inside.low + inside.high - Index3(1)) / std::int64_t{2};
 }
 
 // Screens show left, back and feet to the right and below.

@@ -27,6 +27,7 @@
 #include "imaging/load_study.h"
 #include "imaging/results/results.h"
 #include "imaging/surface/surface.h"
+#include "solver/inside_region.h"
 
 namespace tidemark::cohort {
 namespace {
@@ -222,15 +223,13 @@ Status Case::evolve() {
   return {};
 }
 
-bool touches_border(const Mask& mask) {
-  const Geometry& grid = mask.geometry;
-  for (std::int64_t offset = 0; offset < grid.voxel_count(); ++offset) {
-    if (mask.voxels[static_cast<std::size_t>(offset)] == 0) continue;
-    const Index3 voxel = grid.voxel_at(offset);
-    for (int axis = 0; axis < 3; ++axis) {
-      // An axis of few voxels has nothing but a border.
-      if (grid.size[axis] > 2 && (voxel[axis] == 0 || voxel[axis] == grid.size[axis] - 1)) return true;
-    }
+bool touches_border(const solver::Field& phi) {
+  const VoxelRange inside = solver::inside_region(phi).bounds();
+  if (inside.empty()) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t size = phi.geometry.size[axis];
+    // An axis of few voxels has nothing but a border.
+    if (size > 2 && (inside.low[axis] == 0 || inside.high[axis] == size)) return true;
   }
   return false;
 }
@@ -244,7 +243,7 @@ void Case::warn(const document::Evolution& evolution) {
   when(outcome == Outcome::vanished || outcome == Outcome::seeded_outside, CaseWarning::vanished);
   when(outcome == Outcome::filled_volume, CaseWarning::filled);
   when(!row_.steps && outcome == Outcome::unfinished, CaseWarning::not_converged);
-  when(touches_border(mask_), CaseWarning::touches_border);
+  when(touches_border(phi_), CaseWarning::touches_border);
 }
 
 Status Case::measure() {
