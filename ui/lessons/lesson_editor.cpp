@@ -37,15 +37,12 @@ LessonEditor::LessonEditor(ActiveCase active_case, QWidget* parent)
       active_case_(std::move(active_case)),
       file_(new LessonFile(
           *this, [this]() -> const document::Lesson& { return lesson_; }, [this] { return problem(); })),
-      list_(new PartList),
-      lesson_form_(new LessonForm),
-      part_form_(new PartForm),
       problem_(make_note({})),
       work_(new WorkLine) {
   setWindowFlags(Qt::Window);
   auto* whole = new QVBoxLayout(this);
   whole->setSpacing(kSpace);
-  whole->addWidget(make_forms(), 1);
+  make_forms(*whole);
   whole->addWidget(make_messages());
   whole->addWidget(make_buttons());
   checking_.setSingleShot(true);
@@ -70,18 +67,22 @@ LessonEditor::~LessonEditor() {
   delete forms_;
 }
 
-QWidget* LessonEditor::make_forms() {
-  forms_ = new QStackedWidget;
-  // In the order of FormIndex.
-  forms_->addWidget(new PanelScroll(lesson_form_));
-  forms_->addWidget(new PanelScroll(part_form_));
-  auto* columns = new QSplitter;
+// From the outermost to the innermost: each new parent styles all that is within a widget again.
+void LessonEditor::make_forms(QBoxLayout& whole) {
+  auto* columns = new QSplitter(this);
+  whole.addWidget(columns, 1);
   columns->setChildrenCollapsible(false);
+  list_ = new PartList(columns);
+  forms_ = new QStackedWidget(columns);
   columns->addWidget(list_);
   columns->addWidget(forms_);
   columns->setStretchFactor(1, 1);
   columns->setSizes({kListWidth, kSize.width() - kListWidth});
-  return columns;
+  lesson_form_ = new LessonForm(forms_);
+  part_form_ = new PartForm(forms_);
+  // In the order of FormIndex.
+  forms_->addWidget(new PanelScroll(lesson_form_, forms_));
+  forms_->addWidget(new PanelScroll(part_form_, forms_));
 }
 
 QWidget* LessonEditor::make_messages() {

@@ -58,7 +58,7 @@ class LessonEditor : public QDialog {
   void changeEvent(QEvent* event) override;
 
  private:
-  QWidget* make_forms();
+  void make_forms(QBoxLayout& whole);
   QWidget* make_messages();
   QWidget* make_buttons();
   QPushButton* make_button(const QString& text, const QString& tip, QBoxLayout& row,
@@ -92,9 +92,9 @@ class LessonEditor : public QDialog {
   engine::LessonJobs trials_;
   engine::LessonJobs suits_;
   QTimer checking_;
-  PartList* list_;
-  LessonForm* lesson_form_;
-  PartForm* part_form_;
+  PartList* list_ = nullptr;
+  LessonForm* lesson_form_ = nullptr;
+  PartForm* part_form_ = nullptr;
   QStackedWidget* forms_ = nullptr;
   QLabel* problem_;
   WorkLine* work_;
