@@ -138,12 +138,12 @@ class CaseProxy : public QObject {
   // The surface's inside becomes the label, or a new one; CaseState::acceptance has the outcome.
   void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels);
   void accept_surface_as(const QString& name, document::Take take = document::Take::free_voxels);
-  // With `within_mm` the label is refined: the surface stays that near to it.
   // The labels become those regions. As a tool makes them: see label_finisher().
   void finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions, document::Take take);
   // A stroke of the brush: one entry of the history.
   void brush_label(document::LabelRegion stroke, document::Labels::Stroke what, document::Take take);
   [[nodiscard]] LabelFinisher& label_finisher() { return *label_finisher_; }
+  // With `within_mm` the label is refined: the surface stays that near to it.
   void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
   // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,

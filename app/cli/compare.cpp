@@ -3,11 +3,11 @@
 #include <memory>
 #include <optional>
 
+#include "app/cli/file_regions.h"
 #include "app/cli/outputs.h"
 #include "app/cli/program.h"
 #include "app/cli/study_input.h"
 #include "document/comparison.h"
-#include "document/result_files.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/regions/staple.h"
 
@@ -38,65 +38,12 @@ struct CompareOptions {
   bool labels = false;
 };
 
-// A file's regions by name; one without a name where labels do not count.
-struct Reader {
-  std::string file;
-  std::vector<std::pair<std::string, Region>> regions;
-
-  [[nodiscard]] const Region* find(const std::string& name) const {
-    const auto found = std::find_if(regions.begin(), regions.end(),
-                                    [&](const auto& region) { return region.first == name; });
-    return found == regions.end() ? nullptr : &found->second;
-  }
-};
-
 struct Row {
   std::string label;
-  const Reader* reader = nullptr;
-  const Reader* other = nullptr;
+  const FileRegions* reader = nullptr;
+  const FileRegions* other = nullptr;
   document::Comparison comparison;
 };
-
-Region region_of(const imaging::Segment& segment, const Geometry& grid) {
-  Region region(VoxelRange{Index3(0), grid.size});
-  for (const auto& [k, voxels] : segment.slices) {
-    for (std::int64_t j = 0; j < grid.size.y; ++j) {
-      const std::uint8_t* const row = voxels.data() + j * grid.size.x;
-      for (std::int64_t i = 0; i < grid.size.x; ++i) {
-        if (row[i] != 0) region.add({i, j, k});
-      }
-    }
-  }
-  return region;
-}
-
-// A name that is there already gets a number.
-std::string unused_name(const Reader& reader, const std::string& name) {
-  std::string unused = name;
-  for (int n = 2; reader.find(unused) != nullptr; ++n) unused = fmt::format("{} ({})", name, n);
-  return unused;
-}
-
-// `grid` becomes the file's own where it has none yet.
-Result<Reader> read(const std::string& file, bool labels, std::optional<Geometry>& grid, Console& console) {
-  const Geometry* const wanted = grid ? &*grid : nullptr;
-  Reader reader{file, {}};
-  if (!labels) {
-    auto loaded = imaging::load_any_mask(file, wanted, console.progress());
-    if (!loaded) return pass_on(loaded);
-    for (const std::string& change : loaded->changes) console.warn(fmt::format("{}: {}", file, change));
-    grid = loaded->mask.geometry;
-    reader.regions.emplace_back(std::string(), Region(loaded->mask));
-    return reader;
-  }
-  auto segments = document::read_labels(file, wanted, console.progress());
-  if (!segments) return pass_on(segments);
-  for (const std::string& change : segments->changes) console.warn(fmt::format("{}: {}", file, change));
-  grid = segments->geometry;
-  for (const imaging::Segment& segment : segments->list)
-    reader.regions.emplace_back(unused_name(reader, segment.name), region_of(segment, *grid));
-  return reader;
-}
 
 Json to_json(const Row& row) {
   const document::Comparison& comparison = row.comparison;
@@ -139,17 +86,17 @@ void say(Console& console, const std::vector<Row>& rows, bool names_files) {
 }
 
 // The names of all regions, in the order in which files bring them.
-std::vector<std::string> names_in(const std::vector<Reader>& readers) {
+std::vector<std::string> names_in(const std::vector<FileRegions>& readers) {
   std::vector<std::string> names;
-  for (const Reader& reader : readers) {
-    for (const auto& region : reader.regions) {
+  for (const FileRegions& reader : readers) {
+    for (const auto& region : reader.list) {
       if (std::find(names.begin(), names.end(), region.first) == names.end()) names.push_back(region.first);
     }
   }
   return names;
 }
 
-Result<std::vector<Row>> compare_all(const std::vector<Reader>& readers, const Geometry& grid,
+Result<std::vector<Row>> compare_all(const std::vector<FileRegions>& readers, const Geometry& grid,
                                      Console& console) {
   const Region nothing;
   std::vector<Row> rows;
@@ -169,10 +116,10 @@ Result<std::vector<Row>> compare_all(const std::vector<Reader>& readers, const G
   return rows;
 }
 
-Result<Json> estimate(const std::vector<Reader>& readers, const Geometry& grid, const std::string& file,
+Result<Json> estimate(const std::vector<FileRegions>& readers, const Geometry& grid, const std::string& file,
                       Outputs& outputs, Console& console) {
   std::vector<Region> regions;
-  for (const Reader& reader : readers) regions.push_back(reader.regions.front().second);
+  for (const FileRegions& reader : readers) regions.push_back(reader.list.front().second);
   auto estimated = imaging::estimate_truth(regions, grid);
   if (!estimated) return pass_on(estimated);
   const Mask mask = mask_of(estimated->region, grid);
@@ -217,9 +164,9 @@ Status run(Program& program, const CompareOptions& options) {
     if (!chosen) return pass_on(chosen);
     grid = chosen->series.geometry;
   }
-  std::vector<Reader> readers;
+  std::vector<FileRegions> readers;
   for (const std::string& file : options.files) {
-    auto reader = read(file, options.labels, grid, console);
+    auto reader = read_regions(file, options.labels, grid, console);
     if (!reader && !readers.empty() && options.grid.empty() && reader.error().kind == ErrorKind::input &&
         std::filesystem::exists(file))
       return fail(ErrorKind::input, "{} (--grid STUDY compares on the voxels of a study)",

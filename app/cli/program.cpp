@@ -65,6 +65,7 @@ void add_all(CLI::App& app, Program& program) {
   add_distance(app, program);
   add_convert(app, program);
   add_compare(app, program);
+  add_measure(app, program);
   add_render(app, program);
   add_film(app, program);
   add_phantom(app, program);

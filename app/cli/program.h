@@ -39,6 +39,7 @@ void add_replay(CLI::App& app, Program& program);
 void add_distance(CLI::App& app, Program& program);
 void add_convert(CLI::App& app, Program& program);
 void add_compare(CLI::App& app, Program& program);
+void add_measure(CLI::App& app, Program& program);
 void add_render(CLI::App& app, Program& program);
 void add_film(CLI::App& app, Program& program);
 void add_phantom(CLI::App& app, Program& program);

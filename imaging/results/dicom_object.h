@@ -55,6 +55,10 @@ class FirstFailure {
   OFCondition first_ = EC_Normal;
 };
 
+inline OFString text_of(const std::string& text) {
+  return {text.c_str()};
+}
+
 // The colour of segments without one; systems that read them expect a colour.
 constexpr std::array<std::uint8_t, 3> kDefaultColour{255, 255, 0};
 

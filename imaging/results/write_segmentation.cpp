@@ -23,12 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-OFString of(const std::string& text) {
-  return {text.c_str()};
-}
-
-CodeSequenceMacro of(const Code& code) {
-  return {of(code.value), of(code.scheme), of(code.meaning)};
+CodeSequenceMacro code_macro(const Code& code) {
+  return {text_of(code.value), text_of(code.scheme), text_of(code.meaning)};
 }
 
 // One writing of one file.
@@ -75,14 +71,14 @@ Status SegmentationWriter::create() {
 void SegmentationWriter::identify() {
   const Timestamp now = Timestamp::now();
   failure_ << document_->importFromSourceImage(study_.attributes());
-  failure_ << document_->getFrameOfReference().setFrameOfReferenceUID(of(study_.frame_of_reference_uid));
-  failure_ << document_->getSOPCommon().setSOPInstanceUID(of(make_uid()));
-  failure_ << document_->getSeries().setSeriesInstanceUID(of(make_uid()));
+  failure_ << document_->getFrameOfReference().setFrameOfReferenceUID(text_of(study_.frame_of_reference_uid));
+  failure_ << document_->getSOPCommon().setSOPInstanceUID(text_of(make_uid()));
+  failure_ << document_->getSeries().setSeriesInstanceUID(text_of(make_uid()));
   failure_ << document_->getSeries().setSeriesNumber("1000");
   failure_ << document_->getSeries().setSeriesDescription("Tidemark segmentation");
-  failure_ << document_->getSeries().setSeriesDate(of(now.date));
-  failure_ << document_->getSeries().setSeriesTime(of(now.time));
-  const OFString dimensions = of(make_uid());
+  failure_ << document_->getSeries().setSeriesDate(text_of(now.date));
+  failure_ << document_->getSeries().setSeriesTime(text_of(now.time));
+  const OFString dimensions = text_of(make_uid());
   IODMultiframeDimensionModule& module = document_->getDimensions();
   failure_ << module.addDimensionIndex(DCM_ReferencedSegmentNumber, dimensions,
                                        DCM_SegmentIdentificationSequence, "Segment");
@@ -95,14 +91,14 @@ void SegmentationWriter::describe_planes() {
   const glm::dvec3 row = geometry_.direction[0];
   const glm::dvec3 column = geometry_.direction[1];
   FGPlaneOrientationPatient orientation;
-  failure_ << orientation.setImageOrientationPatient(of(decimal(row.x)), of(decimal(row.y)),
-                                                     of(decimal(row.z)), of(decimal(column.x)),
-                                                     of(decimal(column.y)), of(decimal(column.z)));
+  failure_ << orientation.setImageOrientationPatient(text_of(decimal(row.x)), text_of(decimal(row.y)),
+                                                     text_of(decimal(row.z)), text_of(decimal(column.x)),
+                                                     text_of(decimal(column.y)), text_of(decimal(column.z)));
   FGPixelMeasures measures;
   const glm::dvec3 spacing = geometry_.spacing_mm;
-  failure_ << measures.setPixelSpacing(of(decimals(spacing.y, spacing.x)));  // between rows first
-  failure_ << measures.setSliceThickness(of(decimal(spacing.z)));
-  failure_ << measures.setSpacingBetweenSlices(of(decimal(spacing.z)));
+  failure_ << measures.setPixelSpacing(text_of(decimals(spacing.y, spacing.x)));  // between rows first
+  failure_ << measures.setSliceThickness(text_of(decimal(spacing.z)));
+  failure_ << measures.setSpacingBetweenSlices(text_of(decimal(spacing.z)));
   failure_ << document_->addForAllFrames(orientation) << document_->addForAllFrames(measures);
 }
 
@@ -110,16 +106,17 @@ void SegmentationWriter::refer_to_source() {
   if (study_.images.empty()) return;
   IODReferences references;
   for (const SourceImage& image : study_.images) {
-    references.add(new IODImageReference("", of(study_.study_uid), of(study_.series_uid),
-                                         of(image.sop_instance_uid), of(image.sop_class_uid)));
+    references.add(new IODImageReference("", text_of(study_.study_uid), text_of(study_.series_uid),
+                                         text_of(image.sop_instance_uid), text_of(image.sop_class_uid)));
   }
-  document_->getCommonInstanceReference().addReferences(references, of(study_.study_uid));
+  document_->getCommonInstanceReference().addReferences(references, text_of(study_.study_uid));
 }
 
 Status SegmentationWriter::add_segment(const Segment& segment) {
   DcmSegment* made = nullptr;
-  failure_ << DcmSegment::create(made, "Segment", of(segment.meaning.category), of(segment.meaning.type),
-                                 DcmSegTypes::SAT_SEMIAUTOMATIC, "Tidemark level set");
+  failure_ << DcmSegment::create(made, "Segment", code_macro(segment.meaning.category),
+                                 code_macro(segment.meaning.type), DcmSegTypes::SAT_SEMIAUTOMATIC,
+                                 "Tidemark level set");
   TIDEMARK_TRY(failure_.status(file_));
   const auto [red, green, blue] = segment.colour.value_or(kDefaultColour);
   double l = 0.0;
@@ -140,8 +137,8 @@ Status SegmentationWriter::add_segment(const Segment& segment) {
 Status SegmentationWriter::add_frame(std::uint16_t number, std::int64_t k, std::vector<std::uint8_t>& slice) {
   const glm::dvec3 corner = geometry_.to_patient({0.0, 0.0, static_cast<double>(k)});
   FGPlanePosPatient position;
-  failure_ << position.setImagePositionPatient(of(decimal(corner.x)), of(decimal(corner.y)),
-                                               of(decimal(corner.z)));
+  failure_ << position.setImagePositionPatient(text_of(decimal(corner.x)), text_of(decimal(corner.y)),
+                                               text_of(decimal(corner.z)));
   FGFrameContent content;
   failure_ << content.setStackID("1") << content.setInStackPositionNumber(position_.at(k));
   failure_ << content.setDimensionIndexValues(number, 0)
@@ -153,8 +150,8 @@ Status SegmentationWriter::add_frame(std::uint16_t number, std::int64_t k, std::
   if (const auto& place = study_.places[static_cast<std::size_t>(k)]) {
     const SourceImage& image = study_.images[place->image];
     ImageSOPInstanceReferenceMacro reference;
-    failure_ << reference.setReferencedSOPClassUID(of(image.sop_class_uid));
-    failure_ << reference.setReferencedSOPInstanceUID(of(image.sop_instance_uid));
+    failure_ << reference.setReferencedSOPClassUID(text_of(image.sop_class_uid));
+    failure_ << reference.setReferencedSOPInstanceUID(text_of(image.sop_instance_uid));
     for (const std::uint16_t frame : place->frames) {
       failure_ << reference.addReferencedFrameNumber(frame);
     }

@@ -19,10 +19,6 @@ namespace fs = std::filesystem;
 constexpr const char* kDetachedStudy =
     "1.2.840.10008.3.1.2.3.1";  // the class by which studies are referred to
 
-OFString text_of(const std::string& text) {
-  return {text.c_str()};
-}
-
 // Decimals that keep a coordinate within a thousandth of the smallest spacing.
 int digits_for(const Geometry& geometry) {
   const glm::dvec3 h = geometry.spacing_mm;

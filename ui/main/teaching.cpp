@@ -197,9 +197,15 @@ LessonEditor& Teaching::editor() {
     };
     editor_ = new LessonEditor(active, &window_);
   }
-  editor_->show();
-  editor_->raise();
-  editor_->activateWindow();
+  // In an event of its own: making the window takes about as long as showing it.
+  QMetaObject::invokeMethod(
+      editor_,
+      [editor = editor_] {
+        editor->show();
+        editor->raise();
+        editor->activateWindow();
+      },
+      Qt::QueuedConnection);
   return *editor_;
 }
 

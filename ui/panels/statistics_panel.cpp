@@ -4,77 +4,24 @@
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
-#include <QTableWidget>
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/panels/figure_table.h"
+#include "ui/panels/measure_controls.h"
 #include "ui/panels/region_table.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
-namespace {
-
-QTableWidget* make_table(const QStringList& headings, const QString& name) {
-  auto* table = new QTableWidget(0, static_cast<int>(headings.size()));
-  table->setHorizontalHeaderLabels(headings);
-  table->setAccessibleName(name);
-  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table->setTabKeyNavigation(false);
-  table->setShowGrid(false);
-  table->setWordWrap(false);
-  table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + kSpace);
-  table->verticalHeader()->hide();
-  table->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
-  table->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  QHeaderView* header = table->horizontalHeader();
-  header->setHighlightSections(false);
-  header->setSectionResizeMode(QHeaderView::ResizeToContents);
-  header->setSectionResizeMode(0, QHeaderView::Stretch);
-  for (int column = 0; column < table->columnCount(); ++column) {
-    table->horizontalHeaderItem(column)->setTextAlignment((column == 0 ? Qt::AlignLeft : Qt::AlignRight) |
-                                                          Qt::AlignVCenter);
-  }
-  return table;
-}
-
-// The first cell is a name, the others are numbers.
-void fill_row(QTableWidget* table, int row, const QStringList& cells) {
-  for (int column = 0; column < cells.size(); ++column) {
-    QTableWidgetItem* item = table->item(row, column);
-    if (!item) {
-      item = new QTableWidgetItem;
-      item->setTextAlignment((column == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
-      table->setItem(row, column, item);
-    }
-    item->setText(cells[column]);
-    if (column == 0) item->setToolTip(cells[column]);
-  }
-}
-
-// A table without rows is not there, nor is its title.
-void fill(QTableWidget* table, QLabel* title, const std::vector<QStringList>& lines) {
-  const auto count = static_cast<int>(lines.size());
-  if (table->rowCount() != count) {
-    table->setRowCount(count);
-    table->updateGeometry();
-  }
-  for (int row = 0; row < count; ++row) fill_row(table, row, lines[static_cast<std::size_t>(row)]);
-  title->setVisible(count > 0);
-  table->setVisible(count > 0);
-}
-
-}  // namespace
 
 StatisticsPanel::StatisticsPanel(QWidget* parent) : Panel(tr("Open a study to measure in it."), parent) {
   add(make_surface());
   add(make_tables());
+  add(new MeasureControls);
   add(make_buttons());
 }
 
@@ -97,10 +44,10 @@ QWidget* StatisticsPanel::make_tables() {
   auto* part = new QWidget;
   Form form(part);
   labels_title_ = form.heading(tr("Labels"));
-  labels_ = make_table({tr("Label"), tr("ml"), tr("Mean"), tr("SD")}, tr("Figures of the labels"));
+  labels_ = new FigureTable({tr("Label"), tr("ml"), tr("Mean"), tr("SD")}, tr("Figures of the labels"));
   form.wide(labels_);
   measurements_title_ = form.heading(tr("Measurements"));
-  measured_ = make_table({tr("Kind"), tr("Value")}, tr("Measurements"));
+  measured_ = new FigureTable({tr("Kind"), tr("Value")}, tr("Measurements"));
   form.wide(measured_);
   return part;
 }
@@ -127,7 +74,7 @@ void StatisticsPanel::show_measurements(const std::vector<engine::Measurement>& 
     lines.push_back(
         {kind_text(measurement.kind), number_text(measurement.value(), 1, unit_text(measurement.kind))});
   }
-  fill(measured_, measurements_title_, lines);
+  measured_->fill(lines, measurements_title_);
 }
 
 void StatisticsPanel::copy() const {
@@ -166,7 +113,7 @@ void StatisticsPanel::show_labels(const std::vector<RegionRow>& rows) {
                      row.values ? number_text(row.values->mean, 1) : kNothing,
                      row.values ? number_text(row.values->standard_deviation, 1) : kNothing});
   }
-  fill(labels_, labels_title_, lines);
+  labels_->fill(lines, labels_title_);
 }
 
 void StatisticsPanel::refresh() {

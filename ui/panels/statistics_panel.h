@@ -6,10 +6,10 @@
 class QAction;
 class QLabel;
 class QPushButton;
-class QTableWidget;
 
 namespace tidemark::ui {
 
+class FigureTable;
 struct RegionRow;
 
 class StatisticsPanel : public Panel {
@@ -38,9 +38,9 @@ class StatisticsPanel : public Panel {
   QLabel* mean_;
   QLabel* deviation_;
   QLabel* labels_title_;
-  QTableWidget* labels_;
+  FigureTable* labels_;
   QLabel* measurements_title_;
-  QTableWidget* measured_;
+  FigureTable* measured_;
   QPushButton* export_;
 };
 

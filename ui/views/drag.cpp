@@ -89,9 +89,9 @@ std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer&
       return std::make_unique<StrokeDrag>(std::move(view), pressed,
                                           other_button ? solver::Brush::add : solver::Brush::erase);
     case engine::Tool::measure_distance:
-      return std::make_unique<DistanceDrag>(std::move(view), pressed);
+      return measure_drag(engine::Measurement::Kind::distance, std::move(view), pressed);
     case engine::Tool::measure_angle:
-      return std::make_unique<AngleDrag>(std::move(view), pressed);
+      return measure_drag(engine::Measurement::Kind::angle, std::move(view), pressed);
     case engine::Tool::profile:
       return view.slab ? std::make_unique<ProfileDrag>(std::move(view), pressed) : nullptr;
     case engine::Tool::examples:

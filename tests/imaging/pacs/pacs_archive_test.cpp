@@ -7,6 +7,8 @@
 #include "imaging/load_study.h"
 #include "imaging/pacs/services.h"
 #include "imaging/phantom/phantom.h"
+#include "imaging/results/measurement_report.h"
+#include "imaging/results/results.h"
 #include "tests/imaging/dicom/dicom_bytes.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/pacs/archives.h"
@@ -138,6 +140,35 @@ class PacsArchiveTest : public QObject {
     QCOMPARE(failure(series), QString());
     QCOMPARE(series->entries.size(), std::size_t{1});
     check_description(archive_name, series->entries.front(), "Segmented");
+  }
+
+  void a_segmentation_and_its_report_are_sent_and_found_there_data() { each_archive(); }
+  void a_segmentation_and_its_report_are_sent_and_found_there() {
+    QFETCH(QString, archive_name);
+    const auto archive = start_archive(archive_name);
+    const auto phantom = imaging::make_phantom("sphere", {});
+    QCOMPARE(failure(phantom), QString());
+    const TemporaryFolder folder;
+    write(phantom->volume, "Phantom", folder / "series");
+    const auto images = files_in(folder / "series");
+    const auto segmentation = folder / "seg.dcm";
+    const auto report = folder / "report.dcm";
+    QCOMPARE(failure(imaging::write_segmentation(imaging::segments_of(phantom->truth, "Ball"), images,
+                                                 segmentation)),
+             QString());
+    const imaging::ReportedMeasure volume{
+        {"118565006", "SCT", "Volume"}, 4.2, {"cm3", "UCUM", "cubic centimeter"}, {}};
+    QCOMPARE(failure(imaging::write_measurement_report(segmentation, {{0, {volume}}}, "CT", report)),
+             QString());
+    const auto sent = imaging::send_files(archive->server(), {segmentation, report});
+    QCOMPARE(failure(sent), QString());
+    QVERIFY(sent->unsent.empty());
+    const auto series = imaging::find_pacs_series(archive->server(), {imaging::study_uid_of(report), {}, {}});
+    QCOMPARE(failure(series), QString());
+    std::vector<std::string> modalities;
+    for (const imaging::PacsSeries& one : series->entries) modalities.push_back(one.modality);
+    std::sort(modalities.begin(), modalities.end());
+    QVERIFY(modalities == (std::vector<std::string>{"SEG", "SR"}));
   }
 
   void a_query_narrows_by_date_modality_and_description_data() { each_archive(); }

@@ -109,10 +109,57 @@ def structure_set(result, images):
     return {"regions": regions, "at_their_images": at_their_images}
 
 
+def items(container, relationship=None):
+    found = container.get("ContentSequence", [])
+    return [item for item in found if relationship is None or item.RelationshipType == relationship]
+
+
+def meaning(item):
+    return item.ConceptNameCodeSequence[0].CodeMeaning
+
+
+def measure(item):
+    value = item.MeasuredValueSequence[0]
+    modifiers = [child.ConceptCodeSequence[0] for child in items(item, "HAS CONCEPT MOD")]
+    codes = [item.ConceptNameCodeSequence[0], value.MeasurementUnitsCodeSequence[0], *modifiers]
+    return {
+        "quantity": meaning(item),
+        "value": float(value.NumericValue),
+        "unit": value.MeasurementUnitsCodeSequence[0].CodeValue,
+        "derivation": modifiers[0].CodeMeaning if modifiers else "",
+        "known": all(is_known(code) for code in codes if code.CodingSchemeDesignator != "IBSI"),
+    }
+
+
+def report(result, images):
+    """The measurement groups of a report by TID 1500."""
+    measured = next(item for item in items(result) if meaning(item) == "Imaging Measurements")
+    groups = []
+    for group in items(measured):
+        by_name = {meaning(item): item for item in items(group) if item.ValueType != "NUM"}
+        reference = next(item for item in items(group) if item.ValueType == "IMAGE").ReferencedSOPSequence[0]
+        groups.append(
+            {
+                "name": by_name["Tracking Identifier"].TextValue,
+                "finding": by_name["Finding"].ConceptCodeSequence[0].CodeMeaning,
+                "segment": int(reference.ReferencedSegmentNumber),
+                "instance": reference.ReferencedSOPInstanceUID,
+                "measures": [measure(item) for item in items(group) if item.ValueType == "NUM"],
+            }
+        )
+    return {
+        "title": meaning(result),
+        "template": result.ContentTemplateSequence[0].TemplateIdentifier,
+        "source_series": by_name["Source series for segmentation"].UID in {image.SeriesInstanceUID for image in images.values()},
+        "groups": groups,
+    }
+
+
 def main():
     result = pydicom.dcmread(sys.argv[1])
     images = images_of(sys.argv[2])
-    found = segmentation(result, images) if result.Modality == "SEG" else structure_set(result, images)
+    read = {"SEG": segmentation, "SR": report}.get(result.Modality, structure_set)
+    found = read(result, images)
     json.dump(common(result, images) | found, sys.stdout)
 
 

@@ -1,0 +1,310 @@
+// tidemark-cli measure: the sizes, forms and values of the regions of a segmentation.
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "app/cli/file_regions.h"
+#include "app/cli/image_files.h"
+#include "app/cli/outputs.h"
+#include "app/cli/program.h"
+#include "app/cli/study_input.h"
+#include "core/csv.h"
+#include "core/json/json_field.h"
+#include "core/text_file.h"
+#include "document/measure_codes.h"
+#include "imaging/results/results.h"
+
+namespace tidemark::cli {
+namespace {
+
+constexpr const char* kSummary = "Measures segmentations: volume, diameters, form, and values inside";
+constexpr const char* kDescription =
+    "Measures the regions of SEGMENTATION on the voxels of INPUT: volume and surface, sphericity, the "
+    "longest\n"
+    "diameter, the longest one in an axial slice with the longest at right angles to it (RECIST's two), the\n"
+    "reach along the main axes, and mean, deviation, range and percentiles of the study's values; of PET in\n"
+    "standardised uptake values the peak (a ball of 1 ml) and the total lesion glycolysis, too.\n"
+    "Diameters end at the middles of voxel faces; places are mm in the patient (LPS).\n"
+    "SEGMENTATION is a volume (every voxel that is not 0 is inside; with --labels each number is a label), "
+    "a\n"
+    "DICOM segmentation or an RT structure set.";
+
+constexpr const char* kExamples =
+    "  tidemark-cli measure ct/ tumour.nii.gz\n"
+    "  tidemark-cli measure ct/ labels.dcm --labels --image pet/ --csv measures.csv\n"
+    "  tidemark-cli measure ct/ labels.dcm --labels --report report.dcm\n"
+    "  tidemark-cli measure may/ may.dcm --labels --json > may.json\n"
+    "  tidemark-cli measure june/ june.dcm --labels --before may.json      how much they changed\n";
+
+constexpr std::size_t kMostRegions = 65'535;
+
+struct MeasureOptions {
+  StudyInput study;
+  std::string file;
+  std::vector<std::string> images;
+  std::string before;
+  std::string csv;
+  std::string report;
+  bool labels = false;
+};
+
+struct Row {
+  std::size_t index = 0;  // of the file's regions
+  std::string label;
+  document::Measures measures;
+};
+
+// A region as it was in an earlier study.
+struct Earlier {
+  std::string label;
+  double volume_ml = 0.0;
+  double diameter_mm = 0.0;  // the longest in a slice
+};
+
+Result<std::vector<Earlier>> read_earlier(const std::string& file) {
+  const auto text = read_text_file(file, JsonLimits{}.bytes);
+  if (!text) return pass_on(text);
+  const auto document = JsonDocument::parse(*text, file);
+  if (!document) return pass_on(document);
+  const JsonField whole(*document, file);
+  const JsonField regions = whole.at("regions");
+  std::vector<Earlier> earlier(regions.size(kMostRegions));
+  for (std::size_t n = 0; n < earlier.size() && whole.good(); ++n) {
+    const JsonField region = regions.at(n);
+    if (region.has("label")) earlier[n].label = region.at("label").text();
+    earlier[n].volume_ml = region.at("volume_ml").number(0.0);
+    earlier[n].diameter_mm = region.at("longest_in_slice").at("mm").number(0.0);
+  }
+  if (!whole.good()) return pass_on(whole.status());
+  return earlier;
+}
+
+// Percent of what was; null: there was nothing.
+Json change(double now, double before) {
+  return before > 0.0 ? Json(100.0 * (now - before) / before) : Json();
+}
+
+std::string percent(const Json& change) {
+  return change.is_null() ? "new" : fmt::format("{:+.1f} %", change.get<double>());
+}
+
+// Regions of the same name, and the sum of the diameters of those that both studies have (RECIST 1.1 adds the
+// longest diameters of its target lesions).
+Json changes_since(const std::vector<Earlier>& earlier, const std::vector<Row>& rows, Console& console) {
+  Json object{{"regions", Json::array()}, {"missing", Json::array()}};
+  double sum = 0.0;
+  double sum_before = 0.0;
+  for (const Row& row : rows) {
+    const auto before = std::find_if(earlier.begin(), earlier.end(),
+                                     [&](const Earlier& one) { return one.label == row.label; });
+    const Earlier was = before == earlier.end() ? Earlier{} : *before;
+    const double diameter_mm = row.measures.diameters.in_slice.length_mm();
+    const Json volume = change(row.measures.volume_ml, was.volume_ml);
+    const Json diameter = change(diameter_mm, was.diameter_mm);
+    object["regions"].push_back(
+        {{"label", row.label}, {"volume_percent", volume}, {"longest_in_slice_percent", diameter}});
+    console.say("{:<24} volume {}, longest in a slice {}", row.label, percent(volume), percent(diameter));
+    if (before == earlier.end()) continue;
+    sum += diameter_mm;
+    sum_before += was.diameter_mm;
+  }
+  for (const Earlier& one : earlier) {
+    if (std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.label == one.label; }))
+      continue;
+    object["missing"].push_back(one.label);
+    console.say("{:<24} is no longer there", one.label);
+  }
+  object["sum_mm"] = sum;
+  object["sum_before_mm"] = sum_before;
+  object["sum_percent"] = change(sum, sum_before);
+  console.say("Sum of diameters         {:.1f} mm, was {:.1f} mm: {}", sum, sum_before,
+              percent(object["sum_percent"]));
+  return object;
+}
+
+void say(Console& console, const std::vector<Row>& rows) {
+  console.say("{:<24} {:>10} {:>9} {:>10} {:>10} {:>9} {:>9} {:>9}", "", "ml", "longest", "in a slice",
+              "across", "mean", "SD", "median");
+  for (const Row& row : rows) {
+    const imaging::Diameters& diameters = row.measures.diameters;
+    for (const document::ImageValues& image : row.measures.images) {
+      const bool first = &image == &row.measures.images.front();
+      const std::string values =
+          fmt::format("{:>9.2f} {:>9.2f} {:>9.2f}", image.values.mean, image.values.standard_deviation,
+                      image.values.percentiles[imaging::kPercentiles.size() / 2]);
+      if (first) {
+        console.say("{:<24} {:>10.3f} {:>9.1f} {:>10.1f} {:>10.1f} {}",
+                    row.label.empty() ? "mask" : row.label, row.measures.volume_ml,
+                    diameters.longest.length_mm(), diameters.in_slice.length_mm(),
+                    diameters.across.length_mm(), values);
+      } else {
+        console.say("  {:<65} {}", image.image, values);
+      }
+      if (const auto& uptake = image.values.uptake)
+        console.say("  SUV peak {:.3f}, largest {:.3f}, total lesion glycolysis {:.2f}", uptake->peak,
+                    image.values.largest, uptake->total_glycolysis);
+    }
+  }
+}
+
+std::string csv_of(const std::vector<Row>& rows) {
+  std::vector<std::string> header{"label",     "image",      "unit",       "voxels",      "volume_ml",
+                                  "area_mm2",  "sphericity", "longest_mm", "in_slice_mm", "across_mm",
+                                  "reach1_mm", "reach2_mm",  "reach3_mm",  "mean",        "sd",
+                                  "smallest",  "largest"};
+  for (const double percent : imaging::kPercentiles) header.push_back(fmt::format("p{}", percent));
+  header.insert(header.end(), {"peak_1ml", "total_glycolysis"});
+  std::string csv = csv_line(header);
+  const auto number = [](double value) { return fmt::format("{:.10g}", value); };
+  for (const Row& row : rows) {
+    const document::Measures& all = row.measures;
+    const imaging::Diameters& d = all.diameters;
+    for (const document::ImageValues& image : all.images) {
+      const imaging::InsideValues& inside = image.values;
+      std::vector<std::string> cells{csv_text(row.label), csv_text(image.image), csv_text(image.unit),
+                                     std::to_string(all.voxels)};
+      for (const double value :
+           {all.volume_ml, all.area_mm2, all.sphericity, d.longest.length_mm(), d.in_slice.length_mm(),
+            d.across.length_mm(), d.reach_mm.x, d.reach_mm.y, d.reach_mm.z, inside.mean,
+            inside.standard_deviation, inside.smallest, inside.largest})
+        cells.push_back(number(value));
+      for (const double value : inside.percentiles) cells.push_back(number(value));
+      cells.push_back(inside.uptake ? number(inside.uptake->peak) : "");
+      cells.push_back(inside.uptake ? number(inside.uptake->total_glycolysis) : "");
+      csv += csv_line(cells);
+    }
+  }
+  return csv;
+}
+
+// The study's own values first.
+Result<std::vector<document::MeasuredImage>> images_on(const Geometry& grid, Volume study,
+                                                       const MeasureOptions& options, Console& console) {
+  std::vector<document::MeasuredImage> images;
+  images.push_back({options.study.path, std::make_shared<const Volume>(std::move(study))});
+  for (const std::string& file : options.images) {
+    const auto image = read_image(file, console);
+    if (!image) return pass_on(image);
+    const auto on_case = placed(*image, file, grid);
+    if (!on_case) return pass_on(on_case);
+    auto voxels = document::on_grid(**on_case, grid);
+    if (!voxels) return pass_on(voxels);
+    images.push_back({file, std::move(*voxels)});
+  }
+  return images;
+}
+
+Result<std::vector<Row>> measure_all(const FileRegions& regions, const Geometry& grid,
+                                     const std::vector<document::MeasuredImage>& images, Console& console) {
+  std::vector<Row> rows;
+  for (std::size_t index = 0; index < regions.list.size(); ++index) {
+    const auto& [label, region] = regions.list[index];
+    if (region.empty()) {
+      console.warn(fmt::format("{}: {} is empty", regions.file, label.empty() ? "the mask" : label));
+      continue;
+    }
+    auto measures = document::measure(region, grid, images, nullptr, console.progress());
+    if (!measures) return pass_on(measures);
+    rows.push_back({index, label, std::move(*measures)});
+  }
+  return rows;
+}
+
+Status write_files(const std::vector<Row>& rows, const std::string& modality, const MeasureOptions& options,
+                   Outputs& outputs) {
+  if (!options.csv.empty()) {
+    TIDEMARK_TRY(outputs.stage(
+        options.csv, [&](const std::filesystem::path& file) { return write_file(file, csv_of(rows)); }));
+  }
+  if (!options.report.empty()) {
+    std::vector<imaging::ReportedSegment> segments;
+    for (const Row& row : rows) segments.push_back({row.index, document::coded(row.measures, modality)});
+    TIDEMARK_TRY(outputs.stage(options.report, [&](const std::filesystem::path& file) {
+      return imaging::write_measurement_report(options.file, segments, modality, file);
+    }));
+  }
+  return outputs.commit();
+}
+
+Status run(Program& program, const MeasureOptions& options) {
+  Console& console = program.console;
+  Outputs outputs;
+  if (!options.csv.empty()) {
+    TIDEMARK_TRY(outputs.announce_csv("--csv", options.csv));
+    for (const std::string& input : {options.study.path, options.file, options.before}) {
+      if (!input.empty()) TIDEMARK_TRY(outputs.spare(input));
+    }
+  }
+  if (!options.report.empty()) {
+    TIDEMARK_TRY(outputs.announce_dicom("--report", options.report));
+    TIDEMARK_TRY(outputs.spare(options.file));
+    if (!options.labels || imaging::result_form_of(options.file) != imaging::ResultForm::segmentation)
+      return fail(ErrorKind::usage, "--report needs --labels, and a DICOM segmentation that it can refer to");
+  }
+  std::vector<Earlier> earlier;
+  if (!options.before.empty()) {
+    auto read = read_earlier(options.before);
+    if (!read) return pass_on(read);
+    earlier = std::move(*read);
+  }
+  auto study = load_study(options.study, console.progress());
+  if (!study) return pass_on(study);
+  const std::string modality = study->volume.modality;
+  std::optional<Geometry> grid = study->volume.geometry;
+  const auto regions = read_regions(options.file, options.labels, grid, console);
+  if (!regions) return pass_on(regions);
+  const auto images = images_on(*grid, std::move(study->volume), options, console);
+  if (!images) return pass_on(images);
+  const auto rows = measure_all(*regions, *grid, *images, console);
+  if (!rows) return pass_on(rows);
+
+  say(console, *rows);
+  Json result{{"regions", Json::array()}};
+  for (const Row& row : *rows) {
+    Json region;
+    if (options.labels) region["label"] = row.label;
+    region.update(document::to_json(row.measures));
+    result["regions"].push_back(std::move(region));
+  }
+  if (!options.before.empty()) result["change"] = changes_since(earlier, *rows, console);
+  TIDEMARK_TRY(write_files(*rows, modality, options, outputs));
+  for (const std::string& file : {options.csv, options.report}) {
+    if (!file.empty()) console.say("Wrote      {}", file);
+  }
+  console.result(result);
+  return {};
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app, Program& program) {
+  auto options = std::make_shared<MeasureOptions>();
+  CLI::App& command = add_command(app, program, {"measure", kSummary, kDescription, kExamples},
+                                  [&program, options] { return run(program, *options); });
+  add_study_input(command, options->study);
+  command.add_option("SEGMENTATION", options->file, "The regions that are measured")
+      ->required()
+      ->type_name("");
+  command.add_flag("--labels", options->labels,
+                   "Measures label by label: numbers of a volume, segments of DICOM results");
+  command
+      .add_option("--image", options->images,
+                  "Another image whose values are measured inside, resampled to the voxels of INPUT; may "
+                  "be\nrepeated")
+      ->allow_extra_args(false)
+      ->type_name("INPUT");
+  command
+      .add_option(
+          "--before", options->before,
+          "What an earlier run wrote with --json: regions of the same name are compared, and the sum\nof "
+          "their diameters in slices")
+      ->type_name("FILE");
+  command
+      .add_option("--report", options->report,
+                  "A DICOM structured report (TID 1500) about the segments of a DICOM segmentation")
+      ->type_name("FILE.dcm");
+  command.add_option("--csv", options->csv, "A table, a line for each region and image")
+      ->type_name("FILE.csv");
+}
+
+}  // namespace tidemark::cli

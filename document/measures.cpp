@@ -1,0 +1,90 @@
+#include "document/measures.h"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "document/segment_meshes.h"
+
+namespace tidemark::document {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double sphericity_of(const imaging::Mesh& surface) {
+  const double volume_mm3 = imaging::mesh_volume_ml(surface) * 1000.0;
+  const double area_mm2 = imaging::mesh_area_mm2(surface);
+  return area_mm2 > 0.0 ? std::cbrt(std::numbers::pi * 36.0 * volume_mm3 * volume_mm3) / area_mm2 : 0.0;
+}
+
+Json point(glm::dvec3 mm) {
+  return Json::array({mm.x, mm.y, mm.z});
+}
+
+Json chord(const imaging::Chord& chord) {
+  return {{"mm", chord.length_mm()}, {"from_mm", point(chord.from_mm)}, {"to_mm", point(chord.to_mm)}};
+}
+
+Json values(const ImageValues& image) {
+  const imaging::InsideValues& inside = image.values;
+  Json object{{"image", image.image},        {"unit", image.unit},
+              {"mean", inside.mean},         {"standard_deviation", inside.standard_deviation},
+              {"smallest", inside.smallest}, {"largest", inside.largest}};
+  for (std::size_t n = 0; n < inside.percentiles.size(); ++n)
+    object["percentiles"][std::to_string(std::lround(imaging::kPercentiles[n]))] = inside.percentiles[n];
+  if (inside.uptake) {
+    object["peak_1ml"] = inside.uptake->peak;
+    object["total_glycolysis"] = inside.uptake->total_glycolysis;
+  }
+  return object;
+}
+
+}  // namespace
+
+Result<Measures> measure(const Region& region, const Geometry& grid, const std::vector<MeasuredImage>& images,
+                         const imaging::Mesh* surface, const Progress& progress) {
+  const auto diameters = imaging::diameters_of(region, grid);
+  if (!diameters) return fail(ErrorKind::usage, "there is nothing to measure: no voxel is inside");
+  Measures measures;
+  measures.diameters = *diameters;
+  measures.voxels = region.count();
+  measures.volume_ml = static_cast<double>(measures.voxels) * grid.voxel_volume_ml();
+  if (progress.cancelled()) return cancelled_error();
+  progress(0.3, "surface");
+  std::optional<imaging::Mesh> own;
+  if (surface == nullptr) {
+    auto mesh = mesh_of(mask_of(region, grid));
+    if (!mesh) return pass_on(mesh);
+    own = std::move(*mesh);
+    surface = &*own;
+  }
+  measures.area_mm2 = imaging::mesh_area_mm2(*surface);
+  measures.sphericity = sphericity_of(*surface);
+  for (const MeasuredImage& image : images) {
+    if (progress.cancelled()) return cancelled_error();
+    progress(0.6, "values");
+    measures.images.push_back(
+        {image.name, image.volume->unit, imaging::values_inside(region, *image.volume)});
+  }
+  return measures;
+}
+
+Json to_json(const Measures& measures) {
+  const imaging::Diameters& diameters = measures.diameters;
+  Json object{{"voxels", measures.voxels},
+              {"volume_ml", measures.volume_ml},
+              {"area_mm2", measures.area_mm2},
+              {"sphericity", measures.sphericity},
+              {"longest_diameter", chord(diameters.longest)},
+              {"longest_in_slice", chord(diameters.in_slice)},
+              {"across_in_slice", chord(diameters.across)},
+              {"centre_mm", point(diameters.centre_mm)},
+              {"reach_mm", point(diameters.reach_mm)},
+              {"main_axes", Json::array()},
+              {"images", Json::array()}};
+  for (int axis = 0; axis < 3; ++axis) object["main_axes"].push_back(point(diameters.main_axes[axis]));
+  for (const ImageValues& image : measures.images) object["images"].push_back(values(image));
+  return object;
+}
+
+}  // namespace tidemark::document

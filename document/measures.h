@@ -1,0 +1,46 @@
+// The measures of a region: its size, its form, and the values of images inside of it.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "imaging/regions/diameters.h"
+#include "imaging/regions/inside_values.h"
+#include "imaging/surface/surface.h"
+
+namespace tidemark::document {
+
+// An image on the region's grid.
+struct MeasuredImage {
+  std::string name;
+  std::shared_ptr<const Volume> volume;
+};
+
+struct ImageValues {
+  std::string image;  // its name
+  std::string unit;   // empty: its values have none
+  imaging::InsideValues values;
+};
+
+struct Measures {
+  std::int64_t voxels = 0;
+  double volume_ml = 0.0;  // of the voxels
+  double area_mm2 = 0.0;   // of the surface
+  double sphericity =
+      0.0;  // the area of a ball with the surface's volume by the surface's area: 1 for a ball
+  imaging::Diameters diameters;
+  std::vector<ImageValues> images;
+};
+
+// With the surface of a level set; null: it runs half way between voxels inside and outside. Fails
+// (ErrorKind::usage) on an empty region, (ErrorKind::cancelled), and as extract_surface() does.
+Result<Measures> measure(const Region& region, const Geometry& grid, const std::vector<MeasuredImage>& images,
+                         const imaging::Mesh* surface = nullptr, const Progress& progress = {});
+
+// As `tidemark-cli measure --json` writes them.
+[[nodiscard]] nlohmann::ordered_json to_json(const Measures& measures);
+
+}  // namespace tidemark::document

@@ -1,0 +1,68 @@
+#include "engine/region_meter.h"
+
+#include <QCoreApplication>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "document/label_tool.h"
+#include "document/segment_meshes.h"
+#include "engine/case_proxy.h"
+
+namespace tidemark::engine {
+namespace {
+
+[[maybe_unused]] constexpr const char* kMeasureSteps[] = {
+    QT_TRANSLATE_NOOP("tidemark::MeasureStep", "surface"),
+    QT_TRANSLATE_NOOP("tidemark::MeasureStep", "values"),
+};
+
+// What is measured, as values.
+struct Wanted {
+  document::LabelVoxels from;
+  std::uint8_t label = document::kTheSurface;
+  document::MeasuredImage study;
+  std::vector<std::shared_ptr<const document::CaseImage>> images;
+};
+
+using Answer = std::shared_ptr<const document::Measures>;
+
+Result<Answer> computed(const Wanted& wanted, const Progress& progress) {
+  const Geometry& grid = wanted.from.geometry;
+  std::vector<document::MeasuredImage> images{wanted.study};
+  for (const auto& image : wanted.images) {
+    if (progress.cancelled()) return cancelled_error();
+    auto voxels = document::on_grid(*image, grid);
+    if (!voxels) return pass_on(voxels);
+    images.push_back({image->name, std::move(*voxels)});
+  }
+  std::optional<imaging::Mesh> surface;
+  if (wanted.label == document::kTheSurface && wanted.from.phi) {
+    auto mesh = document::mesh_of(*wanted.from.phi);
+    if (!mesh) return pass_on(mesh);
+    surface = std::move(*mesh);
+  }
+  auto measures = document::measure(wanted.from.region(wanted.label), grid, images,
+                                    surface ? &*surface : nullptr, progress);
+  if (!measures) return pass_on(measures);
+  return std::make_shared<const document::Measures>(std::move(*measures));
+}
+
+}  // namespace
+
+RegionMeter::RegionMeter(QObject* parent) : JobRunner("tidemark::MeasureStep", parent) {}
+
+void RegionMeter::begin(CaseProxy& proxy, std::uint8_t label) {
+  const CaseState& state = proxy.state();
+  Wanted wanted{{proxy.volume().geometry, state.labels, state.label_voxels, state.phi},
+                label,
+                {proxy.name().toStdString(), proxy.study().volume},
+                {}};
+  for (const ShownImage& shown : proxy.display().settings().images) {
+    if (shown.image->volume) wanted.images.push_back(shown.image);
+  }
+  run([wanted = std::move(wanted)](const Progress& progress) { return computed(wanted, progress); },
+      [this](const Answer& measures) { emit measured(measures); });
+}
+
+}  // namespace tidemark::engine

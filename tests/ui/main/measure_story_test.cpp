@@ -1,0 +1,126 @@
+// A surface is measured, its diameters are drawn into the slices, and an end of one is moved, by mouse and
+// keys.
+#include <QAbstractButton>
+#include <QComboBox>
+#include <QLabel>
+#include <QRegularExpression>
+#include <glm/geometric.hpp>
+
+#include "tests/support/test_program.h"
+#include "tests/ui/main/desktop.h"
+#include "ui/main/panel_docks.h"
+#include "ui/panels/figure_table.h"
+#include "ui/panels/statistics_panel.h"
+
+namespace tidemark::test::measure_story_test {
+
+class MeasureStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_surface_is_measured_and_its_diameters_are_drawn();
+  void measures_are_of_the_case_and_the_surface_that_are_seen();
+
+ private:
+  template <class Widget>
+  static Widget* seen(QWidget& in, const QString& name) {
+    for (Widget* widget : in.findChildren<Widget*>()) {
+      if (!widget->isVisible()) continue;
+      if (widget->accessibleName() == name) return widget;
+      if constexpr (std::is_base_of_v<QAbstractButton, Widget>) {
+        if (widget->text() == name) return widget;
+      }
+    }
+    return nullptr;
+  }
+  static void click(Desktop& desktop, QWidget& in, const QString& text) {
+    auto* button = seen<QAbstractButton>(in, text);
+    QVERIFY2(button && button->isEnabled(), qPrintable(text));
+    QTest::mouseClick(button, Qt::LeftButton);
+    desktop.wait_until_idle();
+  }
+  static ui::StatisticsPanel* shown_panel(Desktop& desktop) {
+    desktop.window().panels().show("statistics");
+    desktop.wait_until_idle();
+    auto* panel = desktop.window().findChild<ui::StatisticsPanel*>();
+    if (!panel || !panel->isVisible()) qFatal("there is no panel");
+    return panel;
+  }
+  static bool wait_for_measures(QWidget& panel) {
+    return Desktop::wait_for([&] { return seen<QAbstractButton>(panel, "Draw diameters") != nullptr; });
+  }
+  static const std::vector<engine::Measurement>& lines(Desktop& desktop) {
+    return desktop.proxy().display().settings().measurements;
+  }
+};
+
+void MeasureStoryTest::a_surface_is_measured_and_its_diameters_are_drawn() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::StatisticsPanel& panel = *shown_panel(desktop);
+  desktop.begin(10.0);
+  click(desktop, panel, "Measure");
+  QVERIFY(wait_for_measures(panel));
+  desktop.screenshot("measure-0-figures");
+  // A ball of 20 mm; its voxels are not finer than this.
+  const glm::dvec3 spacing = desktop.proxy().volume().geometry.spacing_mm;
+  const double voxel_mm = std::max({spacing.x, spacing.y, spacing.z});
+  const auto first_number = [](const QString& text) {
+    return QLocale().toDouble(text.section(QRegularExpression("[\\s\\x{a0}]"), 0, 0));
+  };
+  const double longest = first_number(seen<QLabel>(panel, "Longest")->text());
+  QVERIFY2(std::abs(longest - 20.0) <= voxel_mm, qPrintable(QString::number(longest)));
+  QVERIFY(first_number(seen<QLabel>(panel, "Sphericity")->text()) > 0.95);
+  auto* values = seen<ui::FigureTable>(panel, "Values inside");
+  QVERIFY(values && values->rowCount() == 9);
+
+  click(desktop, panel, "Draw diameters");
+  click(desktop, panel, "Draw diameters");  // they are there already
+  QCOMPARE(lines(desktop).size(), std::size_t{3});
+  QVERIFY(std::abs(lines(desktop)[1].value() - 20.0) <= voxel_mm);
+  desktop.screenshot("measure-1-lines");
+
+  // An end goes where it is dragged to; all else stays.
+  desktop.proxy().display().choose_tool(engine::Tool::measure_distance);
+  const engine::Measurement before = lines(desktop)[1];
+  const glm::dvec3 end = before.points_mm[1];
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  const glm::dvec3 to = end + glm::normalize(end - before.points_mm[0]) * 6.0;
+  Desktop::drag(*axial, {end, 0.5 * (end + to), to});
+  desktop.wait_until_idle();
+  desktop.screenshot("measure-2-moved");
+  QCOMPARE(lines(desktop).size(), std::size_t{3});
+  QVERIFY(lines(desktop)[1].points_mm[0] == before.points_mm[0]);
+  QVERIFY(std::abs(lines(desktop)[1].value() - before.value() - 6.0) < 1.0);
+  // Elsewhere a drag is a new one.
+  const glm::dvec3 away = before.points_mm[0] + glm::dvec3(0.0, -14.0, 0.0);
+  Desktop::drag(*axial, {away, away + glm::dvec3(4.0, 0.0, 0.0), away + glm::dvec3(8.0, 0.0, 0.0)});
+  QCOMPARE(lines(desktop).size(), std::size_t{4});
+}
+
+void MeasureStoryTest::measures_are_of_the_case_and_the_surface_that_are_seen() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::StatisticsPanel& panel = *shown_panel(desktop);
+  desktop.begin(8.0);
+  click(desktop, panel, "Measure");
+  QVERIFY(wait_for_measures(panel));
+  // The surface moves: what was measured is no longer so.
+  desktop.proxy().step(5);
+  desktop.wait_until_idle();
+  QVERIFY(Desktop::wait_for([&] { return seen<QAbstractButton>(panel, "Draw diameters") == nullptr; }));
+  click(desktop, panel, "Measure");
+  QVERIFY(wait_for_measures(panel));
+  // Another case has another surface, and this one none.
+  QVERIFY(desktop.open_phantom("dumbbell"));
+  QVERIFY(seen<QAbstractButton>(panel, "Draw diameters") == nullptr);
+  QVERIFY(!seen<QAbstractButton>(panel, "Measure")->isEnabled());
+  QVERIFY(lines(desktop).empty());
+  desktop.screenshot("measure-3-another-case");
+}
+
+TIDEMARK_TEST(MeasureStoryTest)
+
+}  // namespace tidemark::test::measure_story_test
+
+#include "measure_story_test.moc"

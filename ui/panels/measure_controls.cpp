@@ -1,0 +1,178 @@
+#include "ui/panels/measure_controls.h"
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <algorithm>
+#include <utility>
+
+#include "document/label_tool.h"
+#include "ui/panels/figure_table.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
+#include "ui/widgets/work_line.h"
+
+namespace tidemark::ui {
+namespace {
+
+QString times(const QStringList& numbers) {
+  return numbers.join(QStringLiteral(" × "));
+}
+
+engine::Measurement line_of(const imaging::Chord& chord) {
+  return {engine::Measurement::Kind::distance, {chord.from_mm, chord.to_mm}};
+}
+
+}  // namespace
+
+MeasureControls::MeasureControls(QWidget* parent) : CaseWidget(parent) {
+  Form form(this);
+  form.heading(tr("Diameters and values"));
+  region_ = form.choice(tr("Of"), tr("What is measured."));
+  connect(region_, &QComboBox::activated, this, [this] { show_measures(nullptr); });
+  measure_ = new QPushButton(tr("Measure"));
+  measure_->setToolTip(tr("Diameters, form, and the values of all images inside."));
+  form.wide(measure_);
+  connect(measure_, &QPushButton::clicked, this, &MeasureControls::measure);
+  work_ = new WorkLine;
+  form.wide(work_);
+  connect(work_, &WorkLine::cancelled, this, [this] { meter_.cancel(); });
+  in_slice_ =
+      form.figure(tr("In a slice"), tr("The longest diameter in an axial slice, and the longest at right "
+                                       "angles to it: the two of RECIST."));
+  longest_ = form.figure(tr("Longest"), tr("The longest diameter in any direction."));
+  reach_ = form.figure(tr("Reach"), tr("How far it reaches along its three main axes."));
+  area_ = form.figure(tr("Surface area"), tr("The area of its surface."));
+  sphericity_ = form.figure(tr("Sphericity"), tr("1 for a ball, less for any other form."));
+  image_ = form.choice(tr("Values of"), tr("The image whose values inside are listed."));
+  connect(image_, &QComboBox::activated, this, &MeasureControls::fill_values);
+  values_ = new FigureTable({tr("Values inside"), {}}, tr("Values inside"));
+  form.wide(values_);
+  lines_ = new QPushButton(tr("Draw diameters"));
+  lines_->setToolTip(tr("As lines in the slices, whose ends can be moved with the tool Distance."));
+  form.wide(lines_);
+  connect(lines_, &QPushButton::clicked, this, &MeasureControls::draw_lines);
+  rows_ = form.layout();
+  connect(&meter_, &engine::RegionMeter::measured, this, [this](const auto& measures) {
+    work_->end({});
+    show_measures(measures);
+  });
+  connect(&meter_, &engine::RegionMeter::failed, this, [this](const QString& message) {
+    work_->end(message);
+    show_buttons();
+  });
+  connect(&meter_, &engine::RegionMeter::cancelled, this, [this] {
+    work_->end({});
+    show_buttons();
+  });
+  connect(&meter_, &engine::RegionMeter::progressed, work_, &WorkLine::set_progress);
+  show_measures(nullptr);
+}
+
+std::uint8_t MeasureControls::region() const {
+  return static_cast<std::uint8_t>(region_->currentData().toInt());
+}
+
+void MeasureControls::measure() {
+  if (!proxy()) return;
+  show_measures(nullptr);
+  work_->begin(tr("Measuring"));
+  step_ = proxy()->state().step;
+  edits_ = proxy()->state().edits;
+  meter_.begin(*proxy(), region());
+  show_buttons();
+}
+
+void MeasureControls::show_measures(const std::shared_ptr<const document::Measures>& measures) {
+  measures_ = measures;
+  for (QWidget* row :
+       std::initializer_list<QWidget*>{in_slice_, longest_, reach_, area_, sphericity_, lines_})
+    rows_->setRowVisible(row, measures != nullptr);
+  image_->clear();
+  if (measures) {
+    const imaging::Diameters& d = measures->diameters;
+    const auto mm = [](double value) { return number_text(value, 1, tr("mm")); };
+    const auto number = [](double value) { return number_text(value, 1); };
+    in_slice_->setText(times({number(d.in_slice.length_mm()), mm(d.across.length_mm())}));
+    longest_->setText(mm(d.longest.length_mm()));
+    reach_->setText(times({number(d.reach_mm.x), number(d.reach_mm.y), mm(d.reach_mm.z)}));
+    area_->setText(number_text(measures->area_mm2, 0, tr("mm²")));
+    sphericity_->setText(number_text(measures->sphericity, 3));
+    for (const document::ImageValues& image : measures->images)
+      image_->addItem(QString::fromStdString(image.image));
+  }
+  rows_->setRowVisible(image_, image_->count() > 1);
+  fill_values();
+  show_buttons();
+}
+
+void MeasureControls::fill_values() {
+  std::vector<QStringList> lines;
+  if (measures_ && image_->currentIndex() >= 0) {
+    const document::ImageValues& image = measures_->images[static_cast<std::size_t>(image_->currentIndex())];
+    const imaging::InsideValues& inside = image.values;
+    const QString unit = QString::fromStdString(image.unit);
+    const auto add = [&](const QString& name, double value) {
+      lines.push_back({name, number_text(value, inside.uptake ? 2 : 1, unit)});
+    };
+    add(tr("Mean"), inside.mean);
+    add(tr("SD"), inside.standard_deviation);
+    add(tr("Smallest"), inside.smallest);
+    for (std::size_t n = 0; n < inside.percentiles.size(); ++n) {
+      const double percent = imaging::kPercentiles[n];
+      add(percent == 50.0 ? tr("Median") : tr("%1 % are below").arg(number_text(percent, 0)),
+          inside.percentiles[n]);
+    }
+    add(tr("Largest"), inside.largest);
+    if (inside.uptake) {
+      add(tr("Peak (1 ml)"), inside.uptake->peak);
+      lines.push_back({tr("Total lesion glycolysis"), number_text(inside.uptake->total_glycolysis, 1)});
+    }
+  }
+  values_->fill(lines);
+}
+
+// The slices go to the diameter that one of them shows.
+void MeasureControls::draw_lines() {
+  if (!measures_) return;
+  const imaging::Diameters& d = measures_->diameters;
+  change_display([&](engine::DisplaySettings& settings) {
+    for (const imaging::Chord* chord : {&d.longest, &d.in_slice, &d.across}) {
+      const engine::Measurement line = line_of(*chord);
+      const auto& all = settings.measurements;
+      if (std::find(all.begin(), all.end(), line) == all.end()) settings.measurements.push_back(line);
+    }
+    settings.cursor_mm = 0.5 * (d.in_slice.from_mm + d.in_slice.to_mm);
+  });
+}
+
+void MeasureControls::show_buttons() {
+  measure_->setEnabled(region_->count() > 0 && !meter_.busy());
+}
+
+void MeasureControls::attach() {
+  meter_.cancel();
+  work_->end({});
+  show_measures(nullptr);
+  region_->clear();
+  show_buttons();
+}
+
+void MeasureControls::refresh() {
+  const engine::CaseState& state = proxy()->state();
+  std::vector<std::pair<QString, std::uint8_t>> regions;
+  if (state.begun) regions.emplace_back(tr("Surface"), document::kTheSurface);
+  for (const document::Label& label : state.labels)
+    regions.emplace_back(QString::fromStdString(label.name), label.id);
+  const QVariant was = region_->currentData();
+  region_->clear();
+  for (const auto& [name, id] : regions) region_->addItem(name, id);
+  region_->setCurrentIndex(std::max(region_->findData(was), 0));
+  const bool same = region_->currentData() == was && state.step == step_ && state.edits == edits_;
+  if (!same && meter_.busy()) meter_.cancel();
+  if (!same && measures_) show_measures(nullptr);
+  show_buttons();
+}
+
+}  // namespace tidemark::ui

@@ -1,0 +1,55 @@
+// The measures of the surface or of a label: diameters, form, and the values of all images inside.
+#pragma once
+
+#include <memory>
+
+#include "engine/region_meter.h"
+#include "ui/panels/case_widget.h"
+
+class QComboBox;
+class QFormLayout;
+class QLabel;
+class QPushButton;
+
+namespace tidemark::ui {
+
+class FigureTable;
+class WorkLine;
+
+// They are found when asked for, and stay to be read until the case changes or another region is chosen.
+class MeasureControls : public CaseWidget {
+  Q_OBJECT
+ public:
+  explicit MeasureControls(QWidget* parent = nullptr);
+
+ protected:
+  void attach() override;
+  void refresh() override;
+
+ private:
+  [[nodiscard]] std::uint8_t region() const;
+  void measure();
+  void show_measures(const std::shared_ptr<const document::Measures>& measures);  // null: none
+  void fill_values();
+  void draw_lines();
+  void show_buttons();
+
+  engine::RegionMeter meter_;
+  std::shared_ptr<const document::Measures> measures_;
+  std::int64_t step_ = 0;  // of the case when it was asked
+  std::uint64_t edits_ = 0;
+  QFormLayout* rows_;
+  QComboBox* region_;
+  QPushButton* measure_;
+  WorkLine* work_;
+  QLabel* longest_;
+  QLabel* in_slice_;
+  QLabel* reach_;
+  QLabel* area_;
+  QLabel* sphericity_;
+  QComboBox* image_;
+  FigureTable* values_;
+  QPushButton* lines_;
+};
+
+}  // namespace tidemark::ui
