@@ -3,9 +3,11 @@
 //   leak_bench IMAGE T EPSILON ALPHA I J K MM   a study, from a ball around a voxel
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "document/leak.h"
 #include "imaging/load_study.h"
@@ -18,7 +20,7 @@ using namespace tidemark;
 namespace {
 
 constexpr std::int64_t kSteps = 8;  // between two looks
-const document::LeakRule rule{std::getenv("NARROW") ? std::atof(std::getenv("NARROW")) : 3.0, 100};
+const document::LeakRule rule;
 
 struct Run {
   std::shared_ptr<const Volume> volume;
@@ -28,9 +30,15 @@ struct Run {
   double least_behind = 100;
 };
 
-void try_run(const std::string& name, const Run& run, std::int64_t most) {
+struct Alarm {
+  bool raised = false;
+  bool is_leak = false;   // something has grown behind the neck
+  std::int64_t late = 0;  // steps after it had
+};
+
+Alarm try_run(const std::string& name, const Run& run, std::int64_t most) {
   auto made = solver::make_executor(solver::ExecutorKind::host, run.volume, run.parameters);
-  if (!made) return fmt::print("{}: {}\n", name, made.error().message);
+  if (!made) return fmt::print("{}: {}\n", name, made.error().message), Alarm{};
   solver::Executor& executor = **made;
   (void)executor.paint(run.seed, solver::Brush::add);
   solver::FrontPatches patches(run.volume->geometry);
@@ -72,6 +80,19 @@ void try_run(const std::string& name, const Run& run, std::int64_t most) {
                leak->middle.z, leak->area_mm2, leak->volume_ml, leak->neck.size());
   }
   fmt::print("\n");
+  return {leak.has_value(), leaked_at >= 0, step - leaked_at};
+}
+
+// How many of the runs raised an alarm, and how late those that leaked did at the most.
+void tell(const char* what, const std::vector<Alarm>& alarms) {
+  std::size_t raised = 0;
+  std::int64_t latest = 0;
+  for (const Alarm& alarm : alarms) {
+    raised += alarm.raised ? 1 : 0;
+    if (alarm.raised && alarm.is_leak) latest = std::max(latest, alarm.late);
+  }
+  fmt::print("{}: {} of {} with an alarm, at most {} steps after the leak\n", what, raised, alarms.size(),
+             latest);
 }
 
 }  // namespace
@@ -107,16 +128,18 @@ int main(int argc, char** argv) {
       try_run(fmt::format("{} {}", kind, alpha), run, 20000);
     }
   }
+  std::vector<Alarm> with_neck, without_neck;
   for (unsigned n = 0; n < 20; ++n) {
     test::Lobes lobes = test::lobes_with_neck(n);
-    try_run(fmt::format("neck {}", n),
-            {lobes.volume, lobes.parameters, lobes.seed, lobes.behind,
-             std::max(100.0, 2.0 / 3.0 * M_PI * std::pow(2.0 * lobes.neck_mm, 3))},
-            20000);
+    const double least_behind = std::max(100.0, 2.0 / 3.0 * M_PI * std::pow(2.0 * lobes.neck_mm, 3));
+    with_neck.push_back(try_run(fmt::format("neck {}", n),
+                                {lobes.volume, lobes.parameters, lobes.seed, lobes.behind, least_behind},
+                                20000));
+    lobes = test::lobes_without_neck(n);
+    without_neck.push_back(
+        try_run(fmt::format("no neck {}", n), {lobes.volume, lobes.parameters, lobes.seed, {}}, 20000));
   }
-  for (unsigned n = 0; n < 20; ++n) {
-    test::Lobes lobes = test::lobes_without_neck(n);
-    try_run(fmt::format("no neck {}", n), {lobes.volume, lobes.parameters, lobes.seed, {}}, 20000);
-  }
+  tell("with a neck", with_neck);
+  tell("without one", without_neck);
   return 0;
 }

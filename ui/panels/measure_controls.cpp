@@ -47,7 +47,7 @@ MeasureControls::MeasureControls(QWidget* parent) : CaseWidget(parent) {
   sphericity_ = form.figure(tr("Sphericity"), tr("1 for a ball, less for any other form."));
   image_ = form.choice(tr("Values of"), tr("The image whose values inside are listed."));
   connect(image_, &QComboBox::activated, this, &MeasureControls::fill_values);
-  values_ = new FigureTable({tr("Values inside"), {}}, tr("Values inside"));
+  values_ = new FigureTable({tr("Values inside"), tr("Value")}, tr("Values inside"));
   form.wide(values_);
   lines_ = new QPushButton(tr("Draw diameters"));
   lines_->setToolTip(tr("As lines in the slices, whose ends can be moved with the tool Distance."));
@@ -55,18 +55,13 @@ MeasureControls::MeasureControls(QWidget* parent) : CaseWidget(parent) {
   connect(lines_, &QPushButton::clicked, this, &MeasureControls::draw_lines);
   rows_ = form.layout();
   connect(&meter_, &engine::RegionMeter::measured, this, [this](const auto& measures) {
-    work_->end({});
+    end_work({});
     show_measures(measures);
   });
-  connect(&meter_, &engine::RegionMeter::failed, this, [this](const QString& message) {
-    work_->end(message);
-    show_buttons();
-  });
-  connect(&meter_, &engine::RegionMeter::cancelled, this, [this] {
-    work_->end({});
-    show_buttons();
-  });
+  connect(&meter_, &engine::RegionMeter::failed, this, &MeasureControls::end_work);
+  connect(&meter_, &engine::RegionMeter::cancelled, this, [this] { end_work({}); });
   connect(&meter_, &engine::RegionMeter::progressed, work_, &WorkLine::set_progress);
+  end_work({});
   show_measures(nullptr);
 }
 
@@ -77,6 +72,7 @@ std::uint8_t MeasureControls::region() const {
 void MeasureControls::measure() {
   if (!proxy()) return;
   show_measures(nullptr);
+  rows_->setRowVisible(work_, true);
   work_->begin(tr("Measuring"));
   step_ = proxy()->state().step;
   edits_ = proxy()->state().edits;
@@ -86,8 +82,7 @@ void MeasureControls::measure() {
 
 void MeasureControls::show_measures(const std::shared_ptr<const document::Measures>& measures) {
   measures_ = measures;
-  for (QWidget* row :
-       std::initializer_list<QWidget*>{in_slice_, longest_, reach_, area_, sphericity_, lines_})
+  for (QWidget* row : std::initializer_list<QWidget*>{in_slice_, longest_, reach_, sphericity_, lines_})
     rows_->setRowVisible(row, measures != nullptr);
   image_->clear();
   if (measures) {
@@ -102,6 +97,8 @@ void MeasureControls::show_measures(const std::shared_ptr<const document::Measur
     for (const document::ImageValues& image : measures->images)
       image_->addItem(QString::fromStdString(image.image));
   }
+  // The surface's stands above, as the solver measures it.
+  rows_->setRowVisible(area_, measures != nullptr && region() != document::kTheSurface);
   rows_->setRowVisible(image_, image_->count() > 1);
   fill_values();
   show_buttons();
@@ -151,9 +148,15 @@ void MeasureControls::show_buttons() {
   measure_->setEnabled(region_->count() > 0 && !meter_.busy());
 }
 
+void MeasureControls::end_work(const QString& said) {
+  work_->end(said);
+  rows_->setRowVisible(work_, !said.isEmpty());
+  show_buttons();
+}
+
 void MeasureControls::attach() {
   meter_.cancel();
-  work_->end({});
+  end_work({});
   show_measures(nullptr);
   region_->clear();
   show_buttons();

@@ -32,6 +32,7 @@ class MeasureControls : public CaseWidget {
   void show_measures(const std::shared_ptr<const document::Measures>& measures);  // null: none
   void fill_values();
   void draw_lines();
+  void end_work(const QString& said);  // empty: nothing has to be said
   void show_buttons();
 
   engine::RegionMeter meter_;
