@@ -13,6 +13,11 @@ void Display::set(DisplaySettings next) {
   emit changed();
 }
 
+void Display::choose_label(std::uint8_t label) {
+  label_brush_.label = label;
+  emit label_chosen(label);
+}
+
 void Display::choose_tool(Tool tool) {
   change([&](DisplaySettings& settings) {
     if (settings.tool == tool) return;

@@ -114,6 +114,7 @@ struct DrawnMarks {
 struct LabelBrush {
   std::uint8_t label = 0;  // 0, or one that is gone: the newest
   document::Take take = document::Take::free_voxels;
+  bool outlines = false;  // slices: the mouse goes around what is painted
 
   bool operator==(const LabelBrush&) const = default;
 };
@@ -147,6 +148,8 @@ class Display : public QObject {
   // It is not saved.
   [[nodiscard]] const LabelBrush& label_brush() const { return label_brush_; }
   void set_label_brush(const LabelBrush& brush) { label_brush_ = brush; }
+  // The label that all tools for labels work on from now on.
+  void choose_label(std::uint8_t label);
   // What the runs of a sweep agree on, over the slices and all images; it is not saved.
   [[nodiscard]] const std::optional<ShownImage>& agreement() const { return agreement_; }
   void set_agreement(std::optional<ShownImage> agreement);
@@ -157,6 +160,7 @@ class Display : public QObject {
  signals:
   void changed();
   void pointer_moved();  // or what is being drawn has changed
+  void label_chosen(std::uint8_t label);
 
  private:
   DisplaySettings settings_;

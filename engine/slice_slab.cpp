@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace tidemark::engine {
 
@@ -59,6 +60,57 @@ std::vector<std::int64_t> SliceSlab::disc(glm::dvec3 centre_mm, double radius_mm
     }
   }
   return voxels;
+}
+
+// Row by row along the first of the slice's two axes; across it a column of the grid has the voxels near the
+// plane.
+std::vector<std::int64_t> SliceSlab::inside(const std::vector<glm::dvec3>& polygon_mm) const {
+  const int u = axes_[0];
+  const int v = axes_[1];
+  std::vector<glm::dvec2> corners;
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+  for (const glm::dvec3 point_mm : polygon_mm) {
+    const glm::dvec3 voxel = geometry_.to_voxel(point_mm);
+    corners.emplace_back(voxel[u], voxel[v]);
+    low = std::min(low, voxel[v]);
+    high = std::max(high, voxel[v]);
+  }
+  const auto first_row = std::max<std::int64_t>(std::llround(std::ceil(low)), 0);
+  const auto last_row = std::min<std::int64_t>(std::llround(std::floor(high)), geometry_.size[v] - 1);
+  std::vector<std::int64_t> voxels;
+  std::vector<double> crossings;
+  for (std::int64_t row = first_row; row <= last_row; ++row) {
+    const auto y = static_cast<double>(row);
+    crossings.clear();
+    for (std::size_t n = 0; n < corners.size(); ++n) {
+      const glm::dvec2 a = corners[n];
+      const glm::dvec2 b = corners[(n + 1) % corners.size()];
+      if ((a.y <= y) != (b.y <= y)) crossings.push_back(glm::mix(a.x, b.x, (y - a.y) / (b.y - a.y)));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t n = 0; n + 1 < crossings.size(); n += 2) {
+      const auto from = std::max<std::int64_t>(std::llround(std::ceil(crossings[n])), 0);
+      const auto to =
+          std::min<std::int64_t>(std::llround(std::floor(crossings[n + 1])), geometry_.size[u] - 1);
+      for (std::int64_t column = from; column <= to; ++column) add_near(column, row, voxels);
+    }
+  }
+  std::sort(voxels.begin(), voxels.end());
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+  return voxels;
+}
+
+void SliceSlab::add_near(std::int64_t column, std::int64_t row, std::vector<std::int64_t>& voxels) const {
+  const int across = axes_[2];
+  Index3 voxel(0);
+  voxel[axes_[0]] = column;
+  voxel[axes_[1]] = row;
+  const std::int64_t middle =
+      std::llround(-distance_mm(voxel) / per_voxel_mm_[across]);  // nearest to the plane
+  for (voxel[across] = middle - 1; voxel[across] <= middle + 1; ++voxel[across]) {
+    if (geometry_.contains(voxel) && contains(voxel)) voxels.push_back(geometry_.offset(voxel));
+  }
 }
 
 }  // namespace tidemark::engine

@@ -1,4 +1,4 @@
-// The layer of voxels that a slice shows, and the discs in it that a brush paints.
+// The layer of voxels that a slice shows, and the discs and polygons in it that are painted.
 #pragma once
 
 #include <array>
@@ -27,12 +27,16 @@ class SliceSlab {
 
   // The offsets of its voxels within a disc around a point of the plane, and of the voxel there; ascending.
   [[nodiscard]] std::vector<std::int64_t> disc(glm::dvec3 centre_mm, double radius_mm) const;
+  // Those of its voxels that a polygon in the plane surrounds an odd number of times; likewise, ascending.
+  [[nodiscard]] std::vector<std::int64_t> inside(const std::vector<glm::dvec3>& polygon_mm) const;
 
  private:
   [[nodiscard]] double distance_mm(Index3 voxel) const {
     return from_mm_ + static_cast<double>(voxel.x) * per_voxel_mm_.x +
            static_cast<double>(voxel.y) * per_voxel_mm_.y + static_cast<double>(voxel.z) * per_voxel_mm_.z;
   }
+  // The slab's voxels of a column across the slice.
+  void add_near(std::int64_t column, std::int64_t row, std::vector<std::int64_t>& voxels) const;
   [[nodiscard]] bool contains(double distance_mm) const {
     return distance_mm > -half_mm_ && distance_mm <= half_mm_;
   }

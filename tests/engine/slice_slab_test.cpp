@@ -21,6 +21,7 @@ class SliceSlabTest : public QObject {
   void a_plane_between_two_slices_belongs_to_one();
   void a_tilted_grid_has_one_layer();
   void the_voxel_under_the_mouse_is_always_painted();
+  void a_polygon_takes_what_it_surrounds();
   void beside_the_volume_there_is_nothing();
   void a_later_stroke_wins();
   void strokes_that_touch_are_one();
@@ -98,6 +99,66 @@ void SliceSlabTest::the_voxel_under_the_mouse_is_always_painted() {
   const glm::dvec3 corner = g.to_patient({5.4, 5.4, 5.0});
   const auto voxels = SliceSlab(g, corner, {0.0, 0.0, 1.0}).disc(corner, 0.1);
   QCOMPARE(voxels, std::vector<std::int64_t>{g.offset({5, 5, 5})});
+}
+
+void SliceSlabTest::a_polygon_takes_what_it_surrounds() {
+  const Geometry g = grid({30, 24, 18}, {1.0, 0.5, 2.0});
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 normal(0.0);
+    normal[axis] = 1.0;
+    const glm::dvec3 centre = g.to_patient({14.0, 11.0, 9.0});
+    const SliceSlab slab(g, centre, normal);
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    // A triangle that reaches out of the volume, and a bow tie.
+    for (const auto& corners :
+         {std::vector<glm::dvec2>{{-50.0, -3.3}, {7.1, -2.2}, {1.4, 5.7}},
+          std::vector<glm::dvec2>{{-3.3, -3.3}, {3.4, 3.2}, {3.4, -3.1}, {-3.2, 3.5}}}) {
+      std::vector<glm::dvec3> polygon;
+      for (const glm::dvec2 corner : corners) {
+        polygon.push_back(centre);
+        polygon.back()[u] += corner.x;
+        polygon.back()[v] += corner.y;
+      }
+      std::set<std::int64_t> expected;
+      for (std::int64_t n = 0; n < g.voxel_count(); ++n) {
+        const Index3 voxel = g.voxel_at(n);
+        if (!slab.contains(voxel)) continue;
+        const glm::dvec3 at = g.to_patient(voxel) - centre;
+        bool inside = false;
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+          const glm::dvec2 a = corners[c];
+          const glm::dvec2 b = corners[(c + 1) % corners.size()];
+          if ((a.y <= at[v]) != (b.y <= at[v]) && at[u] < a.x + (at[v] - a.y) * (b.x - a.x) / (b.y - a.y))
+            inside = !inside;
+        }
+        if (inside) expected.insert(n);
+      }
+      const auto found = slab.inside(polygon);
+      QVERIFY(!found.empty() && std::ranges::is_sorted(found));
+      QVERIFY(std::set<std::int64_t>(found.begin(), found.end()) == expected);
+    }
+    QVERIFY(slab.inside({centre, centre}).empty());
+  }
+  // In a tilted slice: the slab's voxels in columns that meet the plane inside.
+  const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.3, -0.2, 1.0));
+  const glm::dvec3 centre = g.to_patient({14.0, 11.0, 9.0});
+  const SliceSlab slab(g, centre, tilted);
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), tilted));
+  const glm::dvec3 up = glm::cross(tilted, right);
+  std::vector<glm::dvec3> square;
+  for (const auto& [x, y] : {std::pair(-4.0, -3.0), {4.0, -3.0}, {4.0, 3.0}, {-4.0, 3.0}})
+    square.push_back(centre + x * right + y * up);
+  std::vector<std::int64_t> expected;
+  for (std::int64_t n = 0; n < g.voxel_count(); ++n) {
+    const Index3 voxel = g.voxel_at(n);
+    glm::dvec3 foot = g.to_patient(voxel) - centre;
+    foot.z -= glm::dot(foot, tilted) / tilted.z;
+    const bool inside = std::abs(glm::dot(foot, right)) < 4.0 && std::abs(glm::dot(foot, up)) < 3.0;
+    if (inside && slab.contains(voxel)) expected.push_back(n);
+  }
+  QVERIFY(expected.size() > 60);
+  QVERIFY(slab.inside(square) == expected);
 }
 
 void SliceSlabTest::beside_the_volume_there_is_nothing() {

@@ -1,6 +1,8 @@
 #include "ui/main/view_menu.h"
 
 #include <QMenu>
+#include <algorithm>
+#include <glm/common.hpp>
 
 #include "engine/case_balance.h"
 #include "ui/look/icons.h"
@@ -32,6 +34,31 @@ void add_place(QMenu& menu, PictureView& view, std::optional<glm::dvec3> place_m
   add("tool-probe", tr("Probe &T and ε here"), probe_speed_at);
   add("tool-why", tr("Wh&y does it move or rest here?"),
       [](engine::CaseProxy& proxy, glm::dvec3 place) { proxy.balance().ask(place); });
+}
+
+// Null: no label is there.
+const document::Label* label_at(const engine::CaseProxy& proxy, glm::dvec3 place_mm) {
+  const engine::CaseState& state = proxy.state();
+  const Geometry& grid = proxy.volume().geometry;
+  const Index3 voxel(glm::round(grid.to_voxel(place_mm)));
+  if (!state.label_voxels || !grid.contains(voxel)) return nullptr;
+  const std::uint8_t id = (*state.label_voxels)[static_cast<std::size_t>(grid.offset(voxel))];
+  const auto label = std::find_if(state.labels.begin(), state.labels.end(),
+                                  [&](const document::Label& one) { return one.id == id; });
+  return label == state.labels.end() ? nullptr : &*label;
+}
+
+void add_label(QMenu& menu, PictureView& view, std::optional<glm::dvec3> place_mm) {
+  const document::Label* label = place_mm ? label_at(view.proxy(), *place_mm) : nullptr;
+  QAction* action =
+      menu.addAction(icon(u"label"),
+                     label ? tr("Choose the &label “%1”")
+                                 .arg(QString::fromStdString(label->name).replace(u'&', QStringLiteral("&&")))
+                           : tr("Choose the &label here"));
+  action->setEnabled(label != nullptr);
+  if (!label) return;
+  QObject::connect(action, &QAction::triggered, &view,
+                   [&proxy = view.proxy(), id = label->id] { proxy.display().choose_label(id); });
 }
 
 void add_windows(QMenu& menu, PictureView& view) {
@@ -72,6 +99,7 @@ QMenu* make_view_menu(PictureView& view, const Actions& actions, std::optional<g
   auto* menu = new QMenu(&view);
   menu->setAttribute(Qt::WA_DeleteOnClose);
   add_place(*menu, view, place_mm);
+  add_label(*menu, view, place_mm);
   menu->addSeparator();
   add_windows(*menu, view);
   add_overlays(*menu, view, actions);

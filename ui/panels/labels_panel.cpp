@@ -103,10 +103,12 @@ QWidget* LabelsPanel::make_table_buttons() {
                    "Shift a ball "
                    "through slices, with Ctrl only voxels as bright as the first one, within ε."));
   brush_->setCheckable(true);
-  connect(brush_, &QToolButton::clicked, this, [this] {
-    if (proxy()) proxy()->display().choose_tool(engine::Tool::label);
-    show_brush();
-  });
+  connect(brush_, &QToolButton::clicked, this, [this] { paint_by(false); });
+  outline_ =
+      make(tr("Outline"), u"label-outline",
+           tr("Paints what the mouse goes around in a slice. Left button: adds. Right button: takes away."));
+  outline_->setCheckable(true);
+  connect(outline_, &QToolButton::clicked, this, [this] { paint_by(true); });
   row->addStretch(1);
   connect(add, &QToolButton::clicked, this, &LabelsPanel::add_label);
   connect(remove_, &QToolButton::clicked, this, [this] {
@@ -225,7 +227,16 @@ void LabelsPanel::choose_colour(const QModelIndex& index) {
 void LabelsPanel::attach() {
   Panel::attach();
   choose_new_ = false;
-  if (!proxy()) model_->show({}, {});
+  disconnect(choices_);
+  if (!proxy()) return model_->show({}, {});
+  choices_ = connect(&proxy()->display(), &engine::Display::label_chosen, this, &LabelsPanel::choose);
+}
+
+void LabelsPanel::choose(std::uint8_t label) {
+  refresh();  // a hidden panel may not have it yet
+  for (int row = 0; row < model_->rowCount(); ++row) {
+    if (model_->label(row)->id == label) table_->selectRow(row);
+  }
 }
 
 void LabelsPanel::refresh() {
@@ -248,13 +259,26 @@ void LabelsPanel::refresh() {
   show_buttons();
 }
 
+void LabelsPanel::paint_by(bool outlines) {
+  if (proxy()) {
+    engine::LabelBrush brush = proxy()->display().label_brush();
+    brush.outlines = outlines;
+    proxy()->display().set_label_brush(brush);
+    proxy()->display().choose_tool(engine::Tool::label);
+  }
+  show_brush();
+}
+
 void LabelsPanel::show_brush() {
-  brush_->setChecked(proxy() && proxy()->display().settings().tool == engine::Tool::label);
+  const bool paints = proxy() && proxy()->display().settings().tool == engine::Tool::label;
+  const bool outlines = proxy() && proxy()->display().label_brush().outlines;
+  brush_->setChecked(paints && !outlines);
+  outline_->setChecked(paints && outlines);
   if (!proxy()) return;
   const document::Label* label = chosen();
   proxy()->display().set_label_brush(
       {label ? label->id : std::uint8_t{0},
-       take_all_->isChecked() ? document::Take::others_too : document::Take::free_voxels});
+       take_all_->isChecked() ? document::Take::others_too : document::Take::free_voxels, outlines});
 }
 
 void LabelsPanel::show_buttons() {

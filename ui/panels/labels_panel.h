@@ -30,12 +30,14 @@ class LabelsPanel : public Panel {
   QWidget* make_table();
   QWidget* make_table_buttons();
   QWidget* make_actions();
+  void choose(std::uint8_t label);
   void add_label();
   void accept_surface();
   void show_acceptance();
   [[nodiscard]] QString new_name() const;
   void choose_colour(const QModelIndex& index);
   void show_buttons();
+  void paint_by(bool outlines);                         // with the brush, or around
   void show_brush();                                    // which label it paints, and how
   [[nodiscard]] const document::Label* chosen() const;  // the first of them
   [[nodiscard]] std::vector<std::uint8_t> all_chosen() const;
@@ -44,6 +46,7 @@ class LabelsPanel : public Panel {
   QTableView* table_;
   QToolButton* remove_;
   QToolButton* brush_;
+  QToolButton* outline_;
   MeaningPicker* meaning_;
   QPushButton* accept_;
   QCheckBox* take_all_;
@@ -53,7 +56,8 @@ class LabelsPanel : public Panel {
   SliderNumber* within_;
   SliderNumber* opacity_;
   LabelToolControls* tools_;
-  bool choose_new_ = false;  // a label was added here: it becomes the chosen one
+  QMetaObject::Connection choices_;  // made in the views of the case
+  bool choose_new_ = false;          // a label was added here: it becomes the chosen one
 };
 
 }  // namespace tidemark::ui

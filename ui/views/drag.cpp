@@ -8,6 +8,7 @@
 #include "ui/views/mark_drags.h"
 #include "ui/views/measure_drags.h"
 #include "ui/views/mouse_scheme.h"
+#include "ui/views/outline_drag.h"
 #include "ui/views/probe_drags.h"
 
 namespace tidemark::ui {
@@ -99,6 +100,8 @@ std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer&
     case engine::Tool::wall:
       return std::make_unique<ConstraintDrag>(std::move(view), pressed);
     case engine::Tool::label:
+      if (view.slab && view.proxy.display().label_brush().outlines)
+        return std::make_unique<OutlineDrag>(std::move(view), pressed);
       return std::make_unique<LabelDrag>(std::move(view), pressed);
     case engine::Tool::why:
       return std::make_unique<WhyDrag>(std::move(view), pressed);

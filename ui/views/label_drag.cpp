@@ -6,8 +6,6 @@
 
 #include "imaging/regions/margin.h"
 #include "ui/views/mark_drags.h"
-#include "ui/widgets/number_text.h"
-#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
@@ -19,9 +17,7 @@ Index3 voxel_at(const Geometry& grid, glm::dvec3 patient_mm) {
 }  // namespace
 
 LabelDrag::LabelDrag(DragView view, const Pointer& pressed)
-    : Drag(std::move(view)),
-      what_(pressed.button == Qt::RightButton ? document::Labels::Stroke::erases
-                                              : document::Labels::Stroke::adds),
+    : LabelStroke(std::move(view), pressed),
       is_ball_(!this->view().slab || pressed.modifiers.testFlag(Qt::ShiftModifier)),
       radius_mm_(display().settings().brush_mm),
       last_mm_(*pressed.patient_mm) {
@@ -32,45 +28,19 @@ LabelDrag::LabelDrag(DragView view, const Pointer& pressed)
   dab(last_mm_, last_mm_);
 }
 
-LabelDrag::~LabelDrag() {
-  display().set_drawn_label(nullptr);
-}
-
-// The chosen one, else the newest.
-std::uint8_t LabelDrag::label() const {
-  const std::vector<document::Label>& labels = proxy().state().labels;
-  const auto chosen = std::find_if(labels.begin(), labels.end(), [&](const document::Label& label) {
-    return label.id == display().label_brush().label;
-  });
-  if (chosen != labels.end()) return chosen->id;
-  return labels.empty() ? std::uint8_t{0} : labels.back().id;
-}
-
 void LabelDrag::dab(glm::dvec3 from_mm, glm::dvec3 to_mm) {
   const auto way = way_between(from_mm, to_mm, std::max(0.5 * radius_mm_, 0.1));
   const Region all = is_ball_ ? balls(way) : discs(way);
-  region_ = united(region_, value_ ? like_the_first(all) : all);
-  auto drawn = std::make_shared<engine::LabelPreview>();
-  drawn->from.geometry = proxy().volume().geometry;
-  drawn->regions.push_back({label(), {}, region_});
-  display().set_drawn_label(std::move(drawn));
+  show(united(region(), value_ ? like_the_first(all) : all));
 }
 
 Region LabelDrag::discs(const std::vector<glm::dvec3>& way) const {
-  const Geometry& grid = proxy().volume().geometry;
   std::vector<std::int64_t> voxels;
   for (const glm::dvec3& place : way) {
     const std::vector<std::int64_t> disc = view().slab->disc(place, radius_mm_);
     voxels.insert(voxels.end(), disc.begin(), disc.end());
   }
-  VoxelRange box{grid.size, Index3(0)};
-  for (const std::int64_t offset : voxels) {
-    const Index3 voxel = grid.voxel_at(offset);
-    box = {glm::min(box.low, voxel), glm::max(box.high, voxel + Index3(1))};
-  }
-  Region region(box);
-  for (const std::int64_t offset : voxels) region.add(grid.voxel_at(offset));
-  return region;
+  return region_of(voxels);
 }
 
 Region LabelDrag::balls(const std::vector<glm::dvec3>& way) const {
@@ -100,19 +70,6 @@ void LabelDrag::move(const Pointer& pointer) {
   if (!pointer.patient_mm || *pointer.patient_mm == last_mm_) return;
   dab(last_mm_, *pointer.patient_mm);
   last_mm_ = *pointer.patient_mm;
-}
-
-void LabelDrag::release() {
-  const std::uint8_t painted = label();
-  if (painted == 0 && what_ == document::Labels::Stroke::erases) return;  // there is nothing to take away
-  const QString name = tr("Label %1").arg(proxy().state().labels.size() + 1);  // of a new one
-  proxy().brush_label({painted, name.toStdString(), region_}, what_, display().label_brush().take);
-}
-
-QString LabelDrag::text() const {
-  const QString voxels = count_text(static_cast<qint64>(region_.count()));
-  return what_ == document::Labels::Stroke::adds ? tr("adds up to %1 voxels").arg(voxels)
-                                                 : tr("takes up to %1 voxels away").arg(voxels);
 }
 
 }  // namespace tidemark::ui

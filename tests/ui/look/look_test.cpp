@@ -23,7 +23,7 @@ const QStringList kNames =
         "restart "
         "tool-window tool-crosshair tool-probe tool-probe-transfer tool-seed tool-paint tool-erase "
         "tool-distance "
-        "tool-angle tool-examples tool-wall tool-why tool-label tool-profile clip-plane layout-single "
+        "tool-angle tool-examples tool-wall tool-why tool-label label-outline tool-profile clip-plane layout-single "
         "layout-one-three "
         "layout-two-two "
         "layout-paper view-slice-axial "

@@ -2,6 +2,7 @@
 #include <QAbstractButton>
 #include <QComboBox>
 #include <QLabel>
+#include <QMenu>
 #include <QTableView>
 
 #include "engine/label_finisher.h"
@@ -21,6 +22,8 @@ class FinishLabelsStoryTest : public QObject {
   void a_label_grows_is_smoothed_and_split();
   void a_tool_works_on_the_case_that_is_seen();
   void the_brush_paints_the_chosen_label_and_no_other();
+  void an_outline_takes_what_it_goes_around();
+  void a_label_is_chosen_where_it_is_seen();
 
  private:
   template <class Widget>
@@ -206,6 +209,84 @@ void FinishLabelsStoryTest::the_brush_paints_the_chosen_label_and_no_other() {
     desktop.wait_until_idle();
   }
   QVERIFY(region(desktop, 2) == second);
+}
+
+void FinishLabelsStoryTest::an_outline_takes_what_it_goes_around() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  const glm::dvec3 seed = desktop.seed_mm();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  click(desktop, panel, "Outline");
+  QVERIFY(!seen<QAbstractButton>(panel, "Brush")->isChecked());
+  // Around a square of 20 mm, whose last side closes it by itself.
+  const auto corner = [&](double x, double y) { return seed + glm::dvec3(x, y, 0.0); };
+  desktop.drag(*axial, {corner(-10.2, -10.2), corner(10.2, -10.2), corner(10.2, 10.2), corner(-10.2, 10.2)});
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region square = region(desktop, 1);
+  QCOMPARE(square.bounds().high.z - square.bounds().low.z, std::int64_t{1});
+  QVERIFY2(std::abs(static_cast<double>(square.count()) - 20.4 * 20.4) < 45.0,
+           qPrintable(QString::number(square.count())));
+  desktop.screenshot("outline-0-square");
+  // A part of it goes again.
+  desktop.drag(*axial, {corner(0.0, -14.0), corner(14.0, -14.0), corner(14.0, 14.0), corner(0.0, 14.0)},
+               Qt::RightButton);
+  desktop.wait_until_idle();
+  const Region half = region(desktop, 1);
+  QVERIFY(difference(half, square).empty());
+  QVERIFY(std::abs(static_cast<double>(half.count()) - 0.5 * static_cast<double>(square.count())) < 30.0);
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == square);
+  // The brush is itself again.
+  click(desktop, panel, "Brush");
+  QVERIFY(!seen<QAbstractButton>(panel, "Outline")->isChecked());
+  desktop.drag(*axial, {corner(-25.0, 0.0), corner(-15.0, 0.0)});
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1).count() > square.count());
+}
+
+void FinishLabelsStoryTest::a_label_is_chosen_where_it_is_seen() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  const glm::dvec3 left = desktop.seed_mm() - glm::dvec3(12.0, 0.0, 0.0);
+  const glm::dvec3 right = desktop.seed_mm() + glm::dvec3(12.0, 0.0, 0.0);
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  desktop.press(Qt::Key_Q);
+  desktop.drag(*axial, {left});
+  desktop.wait_until_idle();
+  click(desktop, panel, "Add");
+  desktop.drag(*axial, {right});
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{2});
+  // The menu of the place has its label. A brush has the right button for itself: the Menu key asks.
+  const auto entry_at = [&](glm::dvec3 place_mm) -> QAction* {
+    desktop.proxy().display().change(
+        [&](engine::DisplaySettings& settings) { settings.cursor_mm = place_mm; });
+    axial->setFocus();
+    QTest::keyClick(axial, Qt::Key_Menu);
+    if (!Desktop::wait_for([] { return QApplication::activePopupWidget() != nullptr; })) return nullptr;
+    for (QAction* action : QApplication::activePopupWidget()->actions()) {
+      if (action->text().contains("&label")) return action;
+    }
+    return nullptr;
+  };
+  QAction* entry = entry_at(left);
+  QVERIFY(entry && entry->isEnabled());
+  QVERIFY2(entry->text().contains("Label 1"), qPrintable(entry->text()));
+  desktop.screenshot_at_once("label-menu");
+  auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+  QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(entry).center());
+  desktop.wait_until_idle();
+  const std::int64_t second = region(desktop, 2).count();
+  desktop.drag(*axial, {left + glm::dvec3(0.0, 12.0, 0.0)});
+  desktop.wait_until_idle();
+  QCOMPARE(region(desktop, 2).count(), second);  // the stroke went into the first
+  entry = entry_at(desktop.seed_mm() + glm::dvec3(0.0, -25.0, 0.0));
+  QVERIFY(entry && !entry->isEnabled());
+  QApplication::activePopupWidget()->close();
 }
 
 TIDEMARK_TEST(FinishLabelsStoryTest)

@@ -1,0 +1,65 @@
+#include "ui/views/label_stroke.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
+
+namespace tidemark::ui {
+
+LabelStroke::LabelStroke(DragView view, const Pointer& pressed)
+    : Drag(std::move(view)),
+      what_(pressed.button == Qt::RightButton ? document::Labels::Stroke::erases
+                                              : document::Labels::Stroke::adds) {}
+
+LabelStroke::~LabelStroke() {
+  display().set_drawn_label(nullptr);
+}
+
+// The chosen one, else the newest.
+std::uint8_t LabelStroke::label() const {
+  const std::vector<document::Label>& labels = proxy().state().labels;
+  const auto chosen = std::find_if(labels.begin(), labels.end(), [&](const document::Label& label) {
+    return label.id == display().label_brush().label;
+  });
+  if (chosen != labels.end()) return chosen->id;
+  return labels.empty() ? std::uint8_t{0} : labels.back().id;
+}
+
+Region LabelStroke::region_of(const std::vector<std::int64_t>& voxels) const {
+  const Geometry& grid = proxy().volume().geometry;
+  VoxelRange box{grid.size, Index3(0)};
+  for (const std::int64_t offset : voxels) {
+    const Index3 voxel = grid.voxel_at(offset);
+    box = {glm::min(box.low, voxel), glm::max(box.high, voxel + Index3(1))};
+  }
+  Region region(box);
+  for (const std::int64_t offset : voxels) region.add(grid.voxel_at(offset));
+  return region;
+}
+
+void LabelStroke::show(Region region) {
+  region_ = std::move(region);
+  auto drawn = std::make_shared<engine::LabelPreview>();
+  drawn->from.geometry = proxy().volume().geometry;
+  drawn->regions.push_back({label(), {}, region_});
+  display().set_drawn_label(std::move(drawn));
+}
+
+void LabelStroke::release() {
+  if (region_.empty()) return;
+  const std::uint8_t painted = label();
+  if (painted == 0 && what_ == document::Labels::Stroke::erases) return;  // there is nothing to take away
+  const QString name = tr("Label %1").arg(proxy().state().labels.size() + 1);  // of a new one
+  proxy().brush_label({painted, name.toStdString(), region_}, what_, display().label_brush().take);
+}
+
+QString LabelStroke::text() const {
+  const QString voxels = count_text(static_cast<qint64>(region_.count()));
+  return what_ == document::Labels::Stroke::adds ? tr("adds up to %1 voxels").arg(voxels)
+                                                 : tr("takes up to %1 voxels away").arg(voxels);
+}
+
+}  // namespace tidemark::ui
