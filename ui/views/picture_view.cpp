@@ -189,6 +189,8 @@ std::optional<PictureView::Ring> PictureView::ring() const {
     if (!here || !underMouse()) return std::nullopt;
     return Ring{position_of(*pointer), settings().stroke_voxels * here->finest_mm() / mm_per_pixel(), false};
   }
+  if (settings().tool == engine::Tool::label && display().label_brush().outlines && slab())
+    return std::nullopt;  // the mouse goes around what is painted
   if (!shown && pointer && !drag_ && engine::has_right_button(settings().tool)) {
     shown = engine::DrawnSphere{{*pointer, settings().brush_mm}, settings().tool == engine::Tool::erase};
   }
