@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "document/label_segments.h"
+#include "document/measure_codes.h"
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
 
@@ -39,6 +40,21 @@ Status write_result(const imaging::Segments& segments, imaging::ResultForm form,
   return form == imaging::ResultForm::segmentation
              ? imaging::write_segmentation(segments, source, file, progress)
              : imaging::write_structure_set(segments, source, file, progress);
+}
+
+Status write_measurements(const imaging::Segments& segments, const std::shared_ptr<const Volume>& volume,
+                          const std::filesystem::path& segmentation, const std::filesystem::path& file,
+                          const Progress& progress) {
+  std::vector<imaging::ReportedSegment> reported;
+  for (std::size_t n = 0; n < segments.list.size(); ++n) {
+    if (progress.cancelled()) return cancelled_error();
+    progress(static_cast<double>(n) / static_cast<double>(segments.list.size()), "measuring");
+    const auto measures = measure(imaging::region_of(segments.list[n], segments.geometry), segments.geometry,
+                                  {{volume->description, volume}});
+    if (!measures) return pass_on(measures);
+    reported.push_back({n, coded(*measures, volume->modality)});
+  }
+  return imaging::write_measurement_report(segmentation, reported, volume->modality, file);
 }
 
 Result<imaging::Segments> read_labels(const std::filesystem::path& file, const Geometry* grid,

@@ -20,6 +20,12 @@ Result<imaging::Segments> result_segments(const SessionContents& contents, Resul
 Status write_result(const imaging::Segments& segments, imaging::ResultForm form, imaging::SourceFiles source,
                     const std::filesystem::path& file, const Progress& progress = {});
 
+// A structured report about a segmentation that was written of these segments: their measures, with the
+// values of the volume inside. Fails as measure() and write_measurement_report() do.
+Status write_measurements(const imaging::Segments& segments, const std::shared_ptr<const Volume>& volume,
+                          const std::filesystem::path& segmentation, const std::filesystem::path& file,
+                          const Progress& progress = {});
+
 // The labels in a file, on that grid: the segments of a DICOM Segmentation or RT Structure Set, or the
 // numbers of a volume file, whose axes may be in another order or run the other way. Without a grid: on its
 // own, which a structure set has not. Fails (ErrorKind::input) naming the file and why it does not fit.

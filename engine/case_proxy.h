@@ -135,6 +135,8 @@ class CaseProxy : public QObject {
   void set_label(const document::Label& label);
   void remove_label(std::uint8_t id);
   void import_labels(std::shared_ptr<const imaging::Segments> segments);  // as new labels
+  // The one that is chosen, else the newest. Null: there is none.
+  [[nodiscard]] const document::Label* chosen_label() const;
   // The surface's inside becomes the label, or a new one; CaseState::acceptance has the outcome.
   void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels);
   void accept_surface_as(const QString& name, document::Take take = document::Take::free_voxels);

@@ -1,4 +1,5 @@
 // The commands of a case about its labels.
+#include <algorithm>
 #include <utility>
 
 #include "document/label_segments.h"
@@ -19,6 +20,14 @@ void CaseProxy::set_label(const document::Label& label) {
   post([label](CaseRunner& runner, const Progress&) {
     return runner.report_labels(runner.document().labels().set(label));
   });
+}
+
+const document::Label* CaseProxy::chosen_label() const {
+  const auto chosen =
+      std::find_if(state_.labels.begin(), state_.labels.end(),
+                   [&](const document::Label& label) { return label.id == display_.label_brush().label; });
+  if (chosen != state_.labels.end()) return &*chosen;
+  return state_.labels.empty() ? nullptr : &state_.labels.back();
 }
 
 void CaseProxy::remove_label(std::uint8_t id) {

@@ -11,6 +11,7 @@ namespace {
 [[maybe_unused]] constexpr const char* kResultSteps[] = {
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing segments"),
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing contours"),
+    QT_TRANSLATE_NOOP("tidemark::ResultStep", "measuring"),
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing the level set"),
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "reading labels"),
     QT_TRANSLATE_NOOP("tidemark::ResultStep", "reading the volume"),

@@ -8,19 +8,6 @@
 namespace tidemark::cli {
 namespace {
 
-Region region_of(const imaging::Segment& segment, const Geometry& grid) {
-  Region region(VoxelRange{Index3(0), grid.size});
-  for (const auto& [k, voxels] : segment.slices) {
-    for (std::int64_t j = 0; j < grid.size.y; ++j) {
-      const std::uint8_t* const row = voxels.data() + j * grid.size.x;
-      for (std::int64_t i = 0; i < grid.size.x; ++i) {
-        if (row[i] != 0) region.add({i, j, k});
-      }
-    }
-  }
-  return region;
-}
-
 // A name that is there already gets a number.
 std::string unused_name(const FileRegions& regions, const std::string& name) {
   std::string unused = name;
@@ -53,7 +40,7 @@ Result<FileRegions> read_regions(const std::string& file, bool labels, std::opti
   for (const std::string& change : segments->changes) console.warn(fmt::format("{}: {}", file, change));
   grid = segments->geometry;
   for (const imaging::Segment& segment : segments->list)
-    regions.list.emplace_back(unused_name(regions, segment.name), region_of(segment, *grid));
+    regions.list.emplace_back(unused_name(regions, segment.name), imaging::region_of(segment, *grid));
   return regions;
 }
 

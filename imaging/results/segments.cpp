@@ -74,6 +74,19 @@ Result<Segments> segments_of_numbers(const Geometry& geometry, std::span<const f
   return segments;
 }
 
+Region region_of(const Segment& segment, const Geometry& grid) {
+  Region region(VoxelRange{Index3(0), grid.size});
+  for (const auto& [k, voxels] : segment.slices) {
+    for (std::int64_t j = 0; j < grid.size.y; ++j) {
+      const std::uint8_t* const row = voxels.data() + j * grid.size.x;
+      for (std::int64_t i = 0; i < grid.size.x; ++i) {
+        if (row[i] != 0) region.add({i, j, k});
+      }
+    }
+  }
+  return region;
+}
+
 Mask union_of(const Segments& segments) {
   Mask mask{segments.geometry,
             std::vector<std::uint8_t>(static_cast<std::size_t>(segments.geometry.voxel_count()))};

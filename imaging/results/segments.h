@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/region.h"
 #include "core/volume.h"
 #include "imaging/results/segment_meaning.h"
 
@@ -46,6 +47,9 @@ struct Segments {
 // order. Fails (ErrorKind::input) naming `what` (the file) where a value is no label, or none is above 0.
 [[nodiscard]] Result<Segments> segments_of_numbers(const Geometry& geometry, std::span<const float> values,
                                                    const std::string& what);
+
+// The voxels of a segment on its grid.
+[[nodiscard]] Region region_of(const Segment& segment, const Geometry& grid);
 
 // Everything that is inside any segment.
 [[nodiscard]] Mask union_of(const Segments& segments);

@@ -1,17 +1,11 @@
 #include "ui/lessons/answer_sheet.h"
 
-#include <QPdfWriter>
-#include <QTextDocument>
-
-#include "core/atomic_file.h"
 #include "ui/lessons/lesson_text.h"
+#include "ui/widgets/pdf_file.h"
 #include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
-
-constexpr int kResolution = 300;  // dots per inch
-constexpr double kMargin = 18.0;  // mm
 
 QString html(const std::string& text) {
   return QString::fromStdString(text).toHtmlEscaped().replace(QChar('\n'), QStringLiteral("<br/>"));
@@ -72,24 +66,7 @@ QString page(const document::Lesson& lesson, const document::LessonAnswers& answ
 
 Status write_answer_sheet(const document::Lesson& lesson, const document::LessonAnswers& answers,
                           const std::filesystem::path& file) {
-  auto target = AtomicFile::create(file);
-  if (!target) return pass_on(target);
-  {
-    QPdfWriter writer(QString::fromStdU16String(target->temporary_path().u16string()));
-    writer.setResolution(kResolution);
-    writer.setPageSize(QPageSize(QPageSize::A4));
-    writer.setPageMargins(QMarginsF(kMargin, kMargin, kMargin, kMargin), QPageLayout::Millimeter);
-    writer.setTitle(QString::fromStdString(lesson.title));
-    writer.setCreator(QStringLiteral("Tidemark"));
-    QTextDocument document;
-    document.setHtml(page(lesson, answers));
-    document.print(&writer);
-  }
-  std::error_code error;
-  if (std::filesystem::file_size(target->temporary_path(), error) == 0 || error) {
-    return fail(ErrorKind::write, "{}: cannot be written", file.string());
-  }
-  return target->commit();
+  return write_pdf_file(page(lesson, answers), QString::fromStdString(lesson.title), file);
 }
 
 }  // namespace tidemark::ui

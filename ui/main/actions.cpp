@@ -74,7 +74,9 @@ void Actions::make_files() {
                        tr("Add labels from a DICOM segmentation, an RT structure set or a label map"));
   compare_with_mask = make("compare-with-mask", "target", tr("Compare wit&h a mask…"), {}, true,
                            tr("Dice and distances to a known answer from a file, while the surface moves"));
-  stop_comparing = make("stop-comparing", nullptr, tr("St&op comparing with the mask"), {}, true,
+  compare_with_label = make("compare-with-label", nullptr, tr("Compare with the chosen la&bel"), {}, true,
+                            tr("Dice and distances to a label as it is now, while the surface moves"));
+  stop_comparing = make("stop-comparing", nullptr, tr("St&op comparing"), {}, true,
                         tr("Go back to the phantom's own truth, or to none"));
   add_image = make("add-image", "add", tr("Add ima&ge file…"), {}, true,
                    tr("Show another image, such as PET over CT, on the slices of this case"));
@@ -100,6 +102,9 @@ void Actions::make_files() {
       make("export-film", nullptr, tr("&Film of the evolution…"), {}, true,
            tr("Write how the surface came to be, in the active view, as a GIF that plays for ever"));
   export_statistics = make("export-statistics", "statistics", tr("Statist&ics…"), {}, true);
+  export_report =
+      make("export-report", nullptr, tr("Rep&ort…"), {}, true,
+           tr("Write a page for people: the regions with their measures, and the pictures that are seen"));
   export_recipe = make("export-recipe", nullptr, tr("&Recipe…"), {}, true,
                        tr("Write all steps and edits, to be repeated by tidemark-cli replay"));
   send_result = make("send-result", "server", tr("Sen&d segmentation to a server…"), {}, true,
@@ -284,6 +289,7 @@ void Actions::follow_evolution(const engine::CaseState& state) {
     action->setEnabled(state.begun);
   for (QAction* action : {export_segmentation, export_structure_set, export_label_meshes, send_result})
     action->setEnabled(state.begun || !state.labels.empty());
+  compare_with_label->setEnabled(state.begun && !state.labels.empty());
   step_back->setEnabled(state.begun && state.step > 0);
   undo->setEnabled(!state.undo_text.isEmpty());
   undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(state.undo_text));

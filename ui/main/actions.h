@@ -31,6 +31,7 @@ class Actions : public QObject {
   QAction* add_series;
   QAction* import_labels;
   QAction* compare_with_mask;
+  QAction* compare_with_label;
   QAction* stop_comparing;
   QAction* save;
   QAction* save_as;
@@ -43,6 +44,7 @@ class Actions : public QObject {
   QAction* export_picture;
   QAction* export_film;
   QAction* export_statistics;
+  QAction* export_report;
   QAction* export_recipe;
   QAction* send_result;
   QAction* close;

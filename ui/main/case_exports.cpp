@@ -12,7 +12,10 @@
 #include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
 #include "ui/panels/region_table.h"
+#include "ui/panels/value_unit.h"
+#include "ui/results/case_report.h"
 #include "ui/views/picture_view.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -25,6 +28,55 @@ Status write_label_file(const document::SessionContents& contents, const std::fi
     std::copy(contents.label_voxels->begin(), contents.label_voxels->end(), voxels.begin());
   volume.voxels = std::move(voxels);
   return imaging::write_volume_file(volume, file);
+}
+
+// A picture of a view as it is, with nothing that tells who the patient is.
+QImage picture_of(CaseWindow& window, PictureView& view) {
+  engine::Display& display = window.proxy().display();
+  const bool text = display.settings().patient_text;
+  display.change([](engine::DisplaySettings& settings) { settings.patient_text = false; });
+  const QImage image = view.grab_picture();
+  display.change([text](engine::DisplaySettings& settings) { settings.patient_text = text; });
+  return image;
+}
+
+std::vector<std::pair<QString, QString>> parameters_of(const engine::CaseProxy& proxy) {
+  const engine::CaseState& state = proxy.state();
+  if (!state.begun) return {};
+  std::vector<std::pair<QString, QString>> parameters{
+      {CaseExports::tr("Start"), state.start_text},
+      {CaseExports::tr("Driven by"), QString::fromStdString(document::describe(proxy.drive()))}};
+  if (document::uses_tent(proxy.drive())) {
+    const QString unit = value_unit(proxy.volume());
+    parameters.emplace_back(CaseExports::tr("Target T"), number_text(state.parameters.target, 1, unit));
+    parameters.emplace_back(CaseExports::tr("Range ε"), number_text(state.parameters.range, 1, unit));
+  }
+  parameters.emplace_back(CaseExports::tr("Data weight α"), number_text(state.parameters.alpha, 3));
+  if (state.smoothed_mm > 0.0)
+    parameters.emplace_back(CaseExports::tr("Smoothed by"),
+                            number_text(state.smoothed_mm, 1, CaseExports::tr("mm")));
+  parameters.emplace_back(CaseExports::tr("Steps"), count_text(state.step));
+  return parameters;
+}
+
+// The patient is named where the views name him, too.
+ReportSource report_source(CaseWindow& window) {
+  engine::CaseProxy& proxy = window.proxy();
+  const engine::LoadedStudy& study = proxy.study();
+  ReportSource source;
+  source.study = study.name;
+  source.date = QString::fromStdString(study.date);
+  if (proxy.display().settings().patient_text && study.patient != imaging::Patient{})
+    source.patient = study.patient;
+  source.volume = study.volume;
+  for (const engine::Measurement& one : proxy.display().settings().measurements) {
+    if (one.complete()) source.measurements.push_back(one);
+  }
+  source.parameters = parameters_of(proxy);
+  for (PictureView* view : window.views()) {
+    if (view->isVisible()) source.pictures.emplace_back(view->title(), picture_of(window, *view));
+  }
+  return source;
 }
 
 }  // namespace
@@ -89,12 +141,7 @@ void CaseExports::export_picture(CaseWindow& window) {
 void CaseExports::write_picture(CaseWindow& window, const QString& file) {
   PictureView* view = window.active_view();
   if (!view) return;
-  // Nothing that tells who the patient is.
-  engine::Display& display = window.proxy().display();
-  const bool text = display.settings().patient_text;
-  display.change([](engine::DisplaySettings& settings) { settings.patient_text = false; });
-  const QImage image = view->grab_picture().convertToFormat(QImage::Format_RGBA8888);
-  display.change([text](engine::DisplaySettings& settings) { settings.patient_text = text; });
+  const QImage image = picture_of(window, *view).convertToFormat(QImage::Format_RGBA8888);
   files_.write(window, file, [image, path = path_of(file)] {
     return imaging::write_png_file(
         image.width(), image.height(),
@@ -110,6 +157,20 @@ void CaseExports::export_statistics(CaseWindow& window) {
 void CaseExports::write_statistics(CaseWindow& window, const QString& file) {
   files_.write(window, file,
                [csv = to_csv(window.proxy()), path = path_of(file)] { return write_file(path, csv); });
+}
+
+void CaseExports::export_report(CaseWindow& window) {
+  const QString file =
+      files_.ask_for_file(window, tr("Write a report"), tr("PDF (*.pdf);;Web page (*.html)"));
+  if (!file.isEmpty()) write_report(window, file);
+}
+
+void CaseExports::write_report(CaseWindow& window, const QString& file) {
+  files_.write_contents(
+      window, file,
+      [source = report_source(window), path = path_of(file)](const document::SessionContents& contents) {
+        return ui::write_report(source, contents, path);
+      });
 }
 
 void CaseExports::export_recipe(CaseWindow& window) {

@@ -20,6 +20,7 @@ class CaseExports : public QObject {
   void export_mesh(CaseWindow& window);
   void export_picture(CaseWindow& window);
   void export_statistics(CaseWindow& window);
+  void export_report(CaseWindow& window);
   void export_recipe(CaseWindow& window);
 
   // The same without asking. The suffix says which format.
@@ -28,6 +29,7 @@ class CaseExports : public QObject {
   void write_surface(CaseWindow& window, const QString& file);
   void write_picture(CaseWindow& window, const QString& file);
   void write_statistics(CaseWindow& window, const QString& file);
+  void write_report(CaseWindow& window, const QString& file);
 
  private:
   enum class Voxels { nothing, surface, labels };

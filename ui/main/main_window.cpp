@@ -155,6 +155,7 @@ void MainWindow::connect_files() {
   with_case(actions_->export_picture, [this](CaseWindow& window) { exports_->export_picture(window); });
   with_case(actions_->export_film, [this](CaseWindow& window) { films_->ask_and_write(window); });
   with_case(actions_->export_statistics, [this](CaseWindow& window) { exports_->export_statistics(window); });
+  with_case(actions_->export_report, [this](CaseWindow& window) { exports_->export_report(window); });
   with_case(actions_->export_recipe, [this](CaseWindow& window) { exports_->export_recipe(window); });
   // The MDI area knows of no active window while a panel or a dialog has the keyboard.
   with_case(actions_->close, [](CaseWindow& window) { window.parentWidget()->close(); });

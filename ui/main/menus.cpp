@@ -28,13 +28,13 @@ void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent)
   file->addMenu(phantoms);
   file->addSeparator();
   file->addActions({actions.add_image, actions.add_series, actions.import_labels, actions.compare_with_mask,
-                    actions.stop_comparing, actions.save, actions.save_as});
+                    actions.compare_with_label, actions.stop_comparing, actions.save, actions.save_as});
   QMenu* exports = file->addMenu(icon(u"export"), MainWindow::tr("&Export"));
   exports->addActions({actions.export_mask, actions.export_segmentation, actions.export_structure_set,
                        actions.export_mesh, actions.export_label_meshes, actions.export_level_set});
   exports->addSeparator();
-  exports->addActions(
-      {actions.export_picture, actions.export_film, actions.export_statistics, actions.export_recipe});
+  exports->addActions({actions.export_picture, actions.export_film, actions.export_statistics,
+                       actions.export_report, actions.export_recipe});
   file->addAction(actions.send_result);
   file->addSeparator();
   file->addActions({actions.close, actions.quit});

@@ -51,6 +51,7 @@ PanelDocks::PanelDocks(QMainWindow& window, Actions& actions) : QObject(&window)
   auto* display = new DisplayPanel;
   auto* history = new HistoryPanel;
   auto* labels = new LabelsPanel;
+  labels->set_compare_action(actions.compare_with_label);
   auto* statistics = new StatisticsPanel;
   statistics->set_export_action(actions.export_statistics);
   auto* sweep = new SweepPanel;

@@ -7,6 +7,8 @@
 #include <QLabel>
 #include <QStatusBar>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
 
 #include "engine/background_job.h"
 #include "imaging/results/segments.h"
@@ -32,6 +34,9 @@ TruthReader::TruthReader(MainWindow& window)
       ask_for_labels(window_, *active, tr("Compare with a mask"),
                      [this](CaseWindow& of, const QString& file) { read(of, file); });
     }
+  });
+  connect(window.actions().compare_with_label, &QAction::triggered, this, [this] {
+    if (CaseWindow* active = window_.active_case()) compare_with_label(*active);
   });
   connect(window.actions().stop_comparing, &QAction::triggered, this, [this] {
     if (CaseWindow* active = window_.active_case()) active->proxy().compare_as_the_study();
@@ -95,14 +100,36 @@ void TruthReader::compare(const std::shared_ptr<const imaging::Segments>& segmen
   const QString file = QFileInfo(file_).fileName();
   const QString name =
       region ? tr("%1 of %2").arg(QString::fromStdString(segments->list[*region].name), file) : file;
+  compare(name, [segments, region] {
+    return imaging::union_of(region ? imaging::Segments{segments->geometry, {segments->list[*region]}, {}}
+                                    : *segments);
+  });
+}
+
+void TruthReader::compare_with_label(CaseWindow& window) {
+  const engine::CaseProxy& proxy = window.proxy();
+  const document::Label* label = proxy.chosen_label();
+  if (!label) return;
+  of_ = &window;
+  compare(QString::fromStdString(label->name),
+          [grid = proxy.volume().geometry, voxels = proxy.state().label_voxels, id = label->id] {
+            Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
+            if (voxels) {
+              std::transform(voxels->begin(), voxels->end(), mask.voxels.begin(), [id](std::uint8_t one) {
+                return one == id ? std::uint8_t{1} : std::uint8_t{0};
+              });
+            }
+            return mask;
+          });
+}
+
+void TruthReader::compare(const QString& name, std::function<Mask()> make) {
+  if (job_) job_->abandon();
   job_ = engine::BackgroundJob::start(
       this,
-      [this, segments, region, name](engine::BackgroundJob& job) {
-        const imaging::Segments wanted =
-            region ? imaging::Segments{segments->geometry, {segments->list[*region]}, {}} : *segments;
-        std::int64_t voxels = 0;
-        for (const imaging::Segment& segment : wanted.list) voxels += segment.count();
-        const auto truth = voxels > 0 ? std::make_shared<const Mask>(imaging::union_of(wanted)) : nullptr;
+      [this, name, make = std::move(make)](engine::BackgroundJob& job) {
+        auto truth = std::make_shared<const Mask>(make());
+        if (truth->count() == 0) truth = nullptr;
         job.deliver([this, truth, name] { take(truth, name); });
       },
       [this](const Error& error) { end(QString::fromStdString(error.message)); });

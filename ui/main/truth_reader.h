@@ -1,8 +1,9 @@
-// A known answer from a file, with which a case is compared: an expert's mask, say.
+// A known answer with which a case is compared: an expert's mask from a file, or one of the case's labels.
 #pragma once
 
 #include <QObject>
 #include <QPointer>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -18,7 +19,7 @@ namespace tidemark::ui {
 class LoadingView;
 class MainWindow;
 
-// Carries out File > Compare with a mask, on the active case.
+// Carries out File > Compare with a mask and Compare with the chosen label, on the active case.
 class TruthReader : public QObject {
   Q_OBJECT
  public:
@@ -27,11 +28,14 @@ class TruthReader : public QObject {
 
   // A mask, a label map, a DICOM Segmentation or a structure set. Of several regions the user chooses one.
   void read(CaseWindow& window, const QString& file);
+  // The label as it is now: what becomes of it later changes nothing.
+  void compare_with_label(CaseWindow& window);
 
  private:
   void choose(const std::shared_ptr<const imaging::Segments>& segments);
   // All of it, or one region.
   void compare(const std::shared_ptr<const imaging::Segments>& segments, std::optional<std::size_t> region);
+  void compare(const QString& name, std::function<Mask()> make);
   void take(const std::shared_ptr<const Mask>& truth, const QString& name);
   void end(const QString& problem = {});
 

@@ -153,6 +153,10 @@ QWidget* LabelsPanel::make_actions() {
   connect(refine_, &QPushButton::clicked, this, [this] {
     if (proxy() && chosen()) proxy()->begin_from_label(chosen()->id, within_->value());
   });
+  compare_ = new QPushButton(tr("Compare surface with label"));
+  compare_->setToolTip(tr(
+      "Dice, distances and colours for how far the surface is from the chosen label, while it moves, too."));
+  form.wide(compare_);
   opacity_ = form.slider(tr("Opacity"), tr("Of all labels, in slices."));
   opacity_->set_decimals(0);
   opacity_->set_range(0.0, 100.0);
@@ -296,6 +300,11 @@ void LabelsPanel::show_buttons() {
                                : tr("The surface's inside becomes the chosen label."));
   begin_->setEnabled(label != nullptr);
   refine_->setEnabled(label != nullptr);
+  compare_->setEnabled(label != nullptr && begun);
+}
+
+void LabelsPanel::set_compare_action(QAction* action) {
+  connect(compare_, &QPushButton::clicked, action, &QAction::trigger);
 }
 
 }  // namespace tidemark::ui

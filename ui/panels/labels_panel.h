@@ -22,6 +22,9 @@ class LabelsPanel : public Panel {
  public:
   explicit LabelsPanel(QWidget* parent = nullptr);
 
+  // Compares the surface with the chosen label.
+  void set_compare_action(QAction* action);
+
  protected:
   void attach() override;
   void refresh() override;
@@ -53,6 +56,7 @@ class LabelsPanel : public Panel {
   QLabel* accepted_;  // the outcome of the last acceptance
   QPushButton* begin_;
   QPushButton* refine_;
+  QPushButton* compare_;
   SliderNumber* within_;
   SliderNumber* opacity_;
   LabelToolControls* tools_;

@@ -7,23 +7,37 @@
 namespace tidemark::ui {
 namespace {
 
-// Each form as a file of its own in that folder.
+// What is sent beside the segments.
+struct Wanted {
+  std::vector<imaging::ResultForm> forms;
+  std::shared_ptr<const Volume>
+      measured;  // its values go into a report about the segmentation; null: no report
+};
+
+// Each form as a file of its own in that folder, and the report.
 Result<std::vector<std::filesystem::path>> write_forms(const document::SessionContents& contents,
-                                                       document::ResultContent content,
-                                                       const std::vector<imaging::ResultForm>& forms,
+                                                       document::ResultContent content, const Wanted& wanted,
                                                        const std::vector<std::filesystem::path>& source,
                                                        const std::filesystem::path& folder,
                                                        const Progress& progress) {
   const auto segments = document::result_segments(contents, content);
   if (!segments) return pass_on(segments);
   std::vector<std::filesystem::path> files;
-  const auto count = static_cast<int>(forms.size());
-  for (int form = 0; form < count; ++form) {
-    files.push_back(folder / fmt::format("{}.dcm", form + 1));
-    const Status written = document::write_result(*segments, forms[static_cast<std::size_t>(form)], source,
-                                                  files.back(), progress.part(form, count));
+  std::filesystem::path segmentation;
+  const auto count = static_cast<int>(wanted.forms.size()) + (wanted.measured ? 1 : 0);
+  for (const imaging::ResultForm form : wanted.forms) {
+    const auto number = static_cast<int>(files.size());
+    files.push_back(folder / fmt::format("{}.dcm", number + 1));
+    if (form == imaging::ResultForm::segmentation) segmentation = files.back();
+    const Status written =
+        document::write_result(*segments, form, source, files.back(), progress.part(number, count));
     if (!written) return pass_on(written);
   }
+  if (!wanted.measured) return files;
+  files.push_back(folder / fmt::format("{}.dcm", count));
+  const Status written = document::write_measurements(*segments, wanted.measured, segmentation, files.back(),
+                                                      progress.part(count - 1, count));
+  if (!written) return pass_on(written);
   return files;
 }
 
@@ -33,7 +47,8 @@ SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path ser
     : ResultDialog(window, tr("Send a segmentation to a server")),
       servers_(new ServerChoice(std::move(servers), tr("The server that gets the result"), this)),
       segmentation_(new QCheckBox(tr("&Segmentation (SEG)"), this)),
-      contours_(new QCheckBox(tr("Contours (&RT structure set)"), this)) {
+      contours_(new QCheckBox(tr("Contours (&RT structure set)"), this)),
+      report_(new QCheckBox(tr("&Measurements (SR)"), this)) {
   build(true, make_target(), source_note(proxy().study()), tr("Se&nd"),
         tr("Sends the case in its present state"));
   connect(&client_, &engine::PacsClient::progressed, &work(), &WorkLine::set_progress);
@@ -43,6 +58,7 @@ SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path ser
   connect(&client_, &engine::PacsClient::sent, this, [this](const auto& sent) { tell(*sent); });
   for (QCheckBox* form : {segmentation_, contours_})
     connect(form, &QCheckBox::toggled, this, &SendResultDialog::follow);
+  connect(segmentation_, &QCheckBox::toggled, report_, &QCheckBox::setEnabled);
   connect(servers_, &ServerChoice::chosen, this, &SendResultDialog::follow);
   connect(servers_, &ServerChoice::edited, this, [this] { rest(servers_->problem()); });
   rest(servers_->problem());
@@ -57,14 +73,19 @@ QWidget* SendResultDialog::make_target() {
   segmentation_->setChecked(true);
   segmentation_->setToolTip(tr("The voxels of each segment, as other viewers show them"));
   contours_->setToolTip(tr("Closed contours slice by slice, as systems for planning want them"));
+  report_->setToolTip(
+      tr("A structured report with the volume and the diameters of each segment, and the values inside. It "
+         "refers "
+         "to the segmentation."));
   auto* form = new QLabel(tr("As"), target);
   auto* label = new QLabel(tr("&To"), target);
   label->setBuddy(servers_);
   grid->addWidget(form, 0, 0);
   grid->addWidget(segmentation_, 0, 1);
   grid->addWidget(contours_, 1, 1);
-  grid->addWidget(label, 2, 0);
-  grid->addWidget(servers_, 2, 1);
+  grid->addWidget(report_, 2, 1);
+  grid->addWidget(label, 3, 0);
+  grid->addWidget(servers_, 3, 1);
   grid->setColumnStretch(1, 1);
   return target;
 }
@@ -77,12 +98,13 @@ void SendResultDialog::begin(const Snapshot& snapshot) {
   const imaging::PacsServer& server = *servers_->server();
   receiver_ = QString::fromStdString(server.name);
   servers_->remember();
-  std::vector<imaging::ResultForm> forms;
-  if (segmentation_->isChecked()) forms.push_back(imaging::ResultForm::segmentation);
-  if (contours_->isChecked()) forms.push_back(imaging::ResultForm::structure_set);
-  client_.send(server, [snapshot, forms, what = content(), source = proxy().study().dicom_files](
+  Wanted wanted;
+  if (segmentation_->isChecked()) wanted.forms.push_back(imaging::ResultForm::segmentation);
+  if (contours_->isChecked()) wanted.forms.push_back(imaging::ResultForm::structure_set);
+  if (segmentation_->isChecked() && report_->isChecked()) wanted.measured = proxy().study().volume;
+  client_.send(server, [snapshot, wanted, what = content(), source = proxy().study().dicom_files](
                            const std::filesystem::path& folder, const Progress& progress) {
-    return write_forms(snapshot->contents, what, forms, source, folder, progress);
+    return write_forms(snapshot->contents, what, wanted, source, folder, progress);
   });
 }
 
@@ -92,11 +114,11 @@ void SendResultDialog::tell(const imaging::Sent& sent) {
                     .arg(receiver_, QString::fromStdString(sent.unsent.front().reason)));
   }
   const bool of_study = !proxy().study().dicom_files.empty();
-  rest(sent.objects > 1 ? of_study
-                              ? tr("%1 has it, as two new series of this study.").arg(receiver_)
-                              : tr("%1 has it, as two new studies of an anonymous patient.").arg(receiver_)
+  rest(sent.objects > 1
+           ? of_study ? tr("%1 has it, as %2 new series of this study.").arg(receiver_).arg(sent.objects)
+                      : tr("%1 has it, as new studies of an anonymous patient.").arg(receiver_)
        : of_study ? tr("%1 has it, as a new series of this study.").arg(receiver_)
-                        : tr("%1 has it, as a new study of an anonymous patient.").arg(receiver_));
+                  : tr("%1 has it, as a new study of an anonymous patient.").arg(receiver_));
 }
 
 }  // namespace tidemark::ui

@@ -30,6 +30,7 @@ class SendResultDialog : public ResultDialog {
   ServerChoice* servers_;
   QCheckBox* segmentation_;
   QCheckBox* contours_;
+  QCheckBox* report_;  // about the segmentation
 };
 
 }  // namespace tidemark::ui

@@ -1,6 +1,5 @@
 #include "ui/views/label_stroke.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -18,14 +17,9 @@ LabelStroke::~LabelStroke() {
   display().set_drawn_label(nullptr);
 }
 
-// The chosen one, else the newest.
 std::uint8_t LabelStroke::label() const {
-  const std::vector<document::Label>& labels = proxy().state().labels;
-  const auto chosen = std::find_if(labels.begin(), labels.end(), [&](const document::Label& label) {
-    return label.id == display().label_brush().label;
-  });
-  if (chosen != labels.end()) return chosen->id;
-  return labels.empty() ? std::uint8_t{0} : labels.back().id;
+  const document::Label* chosen = proxy().chosen_label();
+  return chosen ? chosen->id : std::uint8_t{0};
 }
 
 Region LabelStroke::region_of(const std::vector<std::int64_t>& voxels) const {

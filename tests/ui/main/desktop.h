@@ -1,6 +1,7 @@
 // The desktop as tests drive it: real windows on a screen that nobody sees.
 #pragma once
 
+#include <QAbstractButton>
 #include <QAction>
 #include <QApplication>
 #include <QImage>
@@ -8,6 +9,7 @@
 #include <QTest>
 #include <functional>
 #include <memory>
+#include <type_traits>
 
 #include "engine/engine.h"
 #include "tests/support/support.h"
@@ -98,6 +100,25 @@ class Desktop {
   std::unique_ptr<engine::Engine> engine_;
   std::unique_ptr<ui::MainWindow> window_;
 };
+
+// A widget that is seen, by its accessible name, or a button by its text. Null: there is none.
+template <class Widget>
+Widget* find_seen(QWidget& in, const QString& name) {
+  for (Widget* widget : in.findChildren<Widget*>()) {
+    if (!widget->isVisible()) continue;
+    if (widget->accessibleName() == name) return widget;
+    if constexpr (std::is_base_of_v<QAbstractButton, Widget>) {
+      if (widget->text() == name) return widget;
+    }
+  }
+  return nullptr;
+}
+// Ends the test when there is none.
+template <class Widget>
+Widget* seen(QWidget& in, const QString& name) {
+  if (Widget* widget = find_seen<Widget>(in, name)) return widget;
+  qFatal("no %s", qPrintable(name));
+}
 
 // Share of the pixels that differ by more than a little.
 double difference(const QImage& a, const QImage& b);

@@ -26,17 +26,6 @@ class FinishLabelsStoryTest : public QObject {
   void a_label_is_chosen_where_it_is_seen();
 
  private:
-  template <class Widget>
-  static Widget* seen(QWidget& in, const QString& text) {
-    for (Widget* widget : in.findChildren<Widget*>()) {
-      if (!widget->isVisible()) continue;
-      if (widget->accessibleName() == text) return widget;
-      if constexpr (std::is_base_of_v<QAbstractButton, Widget>) {
-        if (widget->text() == text) return widget;
-      }
-    }
-    qFatal("no %s", qPrintable(text));
-  }
   static void click(Desktop& desktop, QWidget& in, const QString& text) {
     auto* button = seen<QAbstractButton>(in, text);
     QVERIFY2(button->isEnabled(), qPrintable(text));

@@ -22,20 +22,9 @@ class MeasureStoryTest : public QObject {
   void measures_are_of_the_case_and_the_surface_that_are_seen();
 
  private:
-  template <class Widget>
-  static Widget* seen(QWidget& in, const QString& name) {
-    for (Widget* widget : in.findChildren<Widget*>()) {
-      if (!widget->isVisible()) continue;
-      if (widget->accessibleName() == name) return widget;
-      if constexpr (std::is_base_of_v<QAbstractButton, Widget>) {
-        if (widget->text() == name) return widget;
-      }
-    }
-    return nullptr;
-  }
   static void click(Desktop& desktop, QWidget& in, const QString& text) {
     auto* button = seen<QAbstractButton>(in, text);
-    QVERIFY2(button && button->isEnabled(), qPrintable(text));
+    QVERIFY2(button->isEnabled(), qPrintable(text));
     QTest::mouseClick(button, Qt::LeftButton);
     desktop.wait_until_idle();
   }
@@ -47,7 +36,7 @@ class MeasureStoryTest : public QObject {
     return panel;
   }
   static bool wait_for_measures(QWidget& panel) {
-    return Desktop::wait_for([&] { return seen<QAbstractButton>(panel, "Draw diameters") != nullptr; });
+    return Desktop::wait_for([&] { return find_seen<QAbstractButton>(panel, "Draw diameters") != nullptr; });
   }
   static const std::vector<engine::Measurement>& lines(Desktop& desktop) {
     return desktop.proxy().display().settings().measurements;
@@ -72,7 +61,7 @@ void MeasureStoryTest::a_surface_is_measured_and_its_diameters_are_drawn() {
   QVERIFY2(std::abs(longest - 20.0) <= voxel_mm, qPrintable(QString::number(longest)));
   QVERIFY(first_number(seen<QLabel>(panel, "Sphericity")->text()) > 0.95);
   auto* values = seen<ui::FigureTable>(panel, "Values inside");
-  QVERIFY(values && values->rowCount() == 9);
+  QCOMPARE(values->rowCount(), 9);
 
   click(desktop, panel, "Draw diameters");
   click(desktop, panel, "Draw diameters");  // they are there already
@@ -108,12 +97,12 @@ void MeasureStoryTest::measures_are_of_the_case_and_the_surface_that_are_seen() 
   // The surface moves: what was measured is no longer so.
   desktop.proxy().step(5);
   desktop.wait_until_idle();
-  QVERIFY(Desktop::wait_for([&] { return seen<QAbstractButton>(panel, "Draw diameters") == nullptr; }));
+  QVERIFY(Desktop::wait_for([&] { return find_seen<QAbstractButton>(panel, "Draw diameters") == nullptr; }));
   click(desktop, panel, "Measure");
   QVERIFY(wait_for_measures(panel));
   // Another case has another surface, and this one none.
   QVERIFY(desktop.open_phantom("dumbbell"));
-  QVERIFY(seen<QAbstractButton>(panel, "Draw diameters") == nullptr);
+  QVERIFY(find_seen<QAbstractButton>(panel, "Draw diameters") == nullptr);
   QVERIFY(!seen<QAbstractButton>(panel, "Measure")->isEnabled());
   QVERIFY(lines(desktop).empty());
   desktop.screenshot("measure-3-another-case");

@@ -1,4 +1,4 @@
-// The patient is named on the screen, and nowhere else.
+// The patient is named on the screen, in a report as long as that is so, and nowhere else.
 #include <QAction>
 #include <QApplication>
 #include <QFile>
@@ -87,6 +87,7 @@ class PrivacyStoryTest : public QObject {
   void titles_name_the_patient_unless_that_is_hidden();
   void names_of_files_do_not_name_the_patient();
   void the_patient_is_in_no_file_that_is_written();
+  void a_report_names_the_patient_while_the_views_do();
 
  private:
   [[nodiscard]] fs::path written() const { return folder_ / "written"; }
@@ -215,6 +216,40 @@ void PrivacyStoryTest::the_patient_is_in_no_file_that_is_written() {
   QVERIFY(!tells_the_patient(bytes_of(settings.fileName().toStdString()).toStdString()));
   // The test would have noticed.
   QVERIFY(!telling_file(folder_ / "study").isEmpty());
+}
+
+void PrivacyStoryTest::a_report_names_the_patient_while_the_views_do() {
+  desktop_->proxy().accept_surface(desktop_->state().labels.front().id);
+  desktop_->proxy().display().change([](engine::DisplaySettings& settings) {
+    settings.measurements = {{engine::Measurement::Kind::distance, {{0.0, 0.0, 0.0}, {3.0, 4.0, 0.0}}}};
+  });
+  desktop_->wait_until_idle();
+  const auto report = [&](const char* name) {
+    const fs::path file = written() / name;
+    bool done = false;
+    QObject scope;
+    connect(&desktop_->window().files(), &ui::CaseFiles::written, &scope, [&] { done = true; });
+    desktop_->window().exports().write_report(*window_, QString::fromStdString(file.string()));
+    return Desktop::wait_for([&] { return done; }) ? bytes_of(file) : QByteArray();
+  };
+  const QByteArray named = report("named.html");
+  QVERIFY(tells_the_patient(named.toStdString()));
+  // The surface and the label, what drove it, the distance, and each view that is seen.
+  for (const char* words : {"Surface", "Ball", "Values inside", "Driven by", "Distance", "5.0"})
+    QVERIFY2(named.contains(words), words);
+  const auto views = desktop_->window().active_case()->views();
+  const auto seen = std::count_if(views.begin(), views.end(),
+                                  [](const ui::PictureView* view) { return view->isVisible(); });
+  QCOMPARE(named.count("data:image/png;base64,"), static_cast<qsizetype>(seen));
+  const QByteArray page = report("named.pdf");
+  QVERIFY(page.startsWith("%PDF") && page.size() > 10'000);
+  desktop_->press(Qt::Key_I);
+  const QByteArray nameless = report("nameless.html");
+  QVERIFY(nameless.contains("Values inside") && !tells_the_patient(nameless.toStdString()));
+  if (const QString kept = qEnvironmentVariable("TIDEMARK_SCREENSHOTS"); !kept.isEmpty()) {
+    for (const char* name : {"named.html", "named.pdf"})
+      QFile::copy(QString::fromStdString((written() / name).string()), kept + "/report-" + name);
+  }
 }
 
 TIDEMARK_TEST(PrivacyStoryTest)

@@ -275,7 +275,7 @@ void ResultsStoryTest::labels_are_sent_to_a_server() {
   picture(dialog, "send");
   QVERIFY(button(dialog, "Send")->isEnabled());
   QTest::mouseClick(button(dialog, "Send"), Qt::LeftButton);
-  QVERIFY2(Desktop::wait_for([&] { return says(dialog, "as two new series of this study"); }, kPatience),
+  QVERIFY2(Desktop::wait_for([&] { return says(dialog, "as 3 new series of this study"); }, kPatience),
            qPrintable(dialog.findChild<ui::WorkLine*>()->text()));
   picture(dialog, "sent");
 
@@ -283,7 +283,7 @@ void ResultsStoryTest::labels_are_sent_to_a_server() {
   QCOMPARE(failure(studies), QString());
   QCOMPARE(studies->entries.size(), std::size_t{1});
   QCOMPARE(studies->entries.front().patient_id, std::string("P1"));
-  for (const char* modality : {"SEG", "RTSTRUCT"}) {
+  for (const char* modality : {"SEG", "RTSTRUCT", "SR"}) {
     const auto series =
         imaging::find_pacs_series(archive->server(), {studies->entries.front().uid, modality, {}});
     QCOMPARE(failure(series), QString());

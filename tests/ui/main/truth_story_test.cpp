@@ -1,4 +1,4 @@
-// A case is compared with a known answer from a file, while its surface moves.
+// A case is compared with a known answer from a file or with one of its labels, while its surface moves.
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
@@ -42,6 +42,7 @@ class TruthStoryTest : public QObject, ResultsDesktop {
   void cleanup() { close(); }
   void a_mask_from_a_file_is_the_truth();
   void one_of_several_regions_is_chosen();
+  void a_label_is_compared_with_as_it_is_now();
   void what_does_not_fit_is_said_and_changes_nothing();
   void a_session_keeps_it_until_it_is_taken_back();
 
@@ -139,6 +140,28 @@ void TruthStoryTest::one_of_several_regions_is_chosen() {
   question->accept();
   QVERIFY(Desktop::wait_for([&] { return dice_now() > 0.9; }, kPatience));
   QVERIFY(desktop_->proxy().truth()->voxels == ball(grid(), kLeft, kRadius).voxels);
+}
+
+void TruthStoryTest::a_label_is_compared_with_as_it_is_now() {
+  QVERIFY(!desktop_->menu_entry("File", "Compare with the chosen label")->isEnabled());
+  desktop_->proxy().accept_surface_as("Kidney");
+  desktop_->wait_until_idle();
+  const Mask label = desktop_->state().phi->mask();
+  desktop_->proxy().step(40);
+  desktop_->wait_until_idle();
+  QVERIFY(!desktop_->state().dice);
+  desktop_->choose("File", desktop_->menu_entry("File", "Compare with the chosen label"));
+  QVERIFY(Desktop::wait_for([&] { return desktop_->state().dice.has_value(); }, kPatience));
+  QVERIFY(dice_now() < 1.0);
+  QCOMPARE(dice_now(), dice(desktop_->state().phi->mask(), label));
+  QVERIFY(desktop_->proxy().truth()->voxels == label.voxels);
+  // What becomes of the label later is another answer, for whoever asks again.
+  desktop_->proxy().accept_surface(desktop_->state().labels.front().id);
+  desktop_->wait_until_idle();
+  QVERIFY(desktop_->proxy().truth()->voxels == label.voxels);
+  desktop_->choose("File", desktop_->menu_entry("File", "Stop comparing"));
+  desktop_->wait_until_idle();
+  QVERIFY(!desktop_->state().dice);
 }
 
 void TruthStoryTest::what_does_not_fit_is_said_and_changes_nothing() {
