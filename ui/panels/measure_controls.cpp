@@ -164,18 +164,30 @@ void MeasureControls::attach() {
 
 void MeasureControls::refresh() {
   const engine::CaseState& state = proxy()->state();
+  const QVariant was = region_->currentData();
   std::vector<std::pair<QString, std::uint8_t>> regions;
   if (state.begun) regions.emplace_back(tr("Surface"), document::kTheSurface);
   for (const document::Label& label : state.labels)
     regions.emplace_back(QString::fromStdString(label.name), label.id);
-  const QVariant was = region_->currentData();
-  region_->clear();
-  for (const auto& [name, id] : regions) region_->addItem(name, id);
-  region_->setCurrentIndex(std::max(region_->findData(was), 0));
+  fill_regions(regions);
   const bool same = region_->currentData() == was && state.step == step_ && state.edits == edits_;
   if (!same && meter_.busy()) meter_.cancel();
   if (!same && measures_) show_measures(nullptr);
   show_buttons();
+}
+
+// A list that is open stays so while nothing in it changes.
+void MeasureControls::fill_regions(const std::vector<std::pair<QString, std::uint8_t>>& regions) {
+  bool same = region_->count() == static_cast<int>(regions.size());
+  for (int n = 0; same && n < region_->count(); ++n) {
+    const auto& [name, id] = regions[static_cast<std::size_t>(n)];
+    same = region_->itemText(n) == name && region_->itemData(n).toInt() == id;
+  }
+  if (same) return;
+  const QVariant was = region_->currentData();
+  region_->clear();
+  for (const auto& [name, id] : regions) region_->addItem(name, id);
+  region_->setCurrentIndex(std::max(region_->findData(was), 0));
 }
 
 }  // namespace tidemark::ui

@@ -1,7 +1,10 @@
 // The measures of the surface or of a label: diameters, form, and the values of all images inside.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "engine/region_meter.h"
 #include "ui/panels/case_widget.h"
@@ -31,6 +34,7 @@ class MeasureControls : public CaseWidget {
   void measure();
   void show_measures(const std::shared_ptr<const document::Measures>& measures);  // null: none
   void fill_values();
+  void fill_regions(const std::vector<std::pair<QString, std::uint8_t>>& regions);  // names and labels
   void draw_lines();
   void end_work(const QString& said);  // empty: nothing has to be said
   void show_buttons();

@@ -20,7 +20,7 @@ constexpr double kBeside = 3.5;         // between arrows of one place
 constexpr double kArrowHead = 4.5;
 const QColor kSumColour(250, 250, 250);
 
-struct Kind {
+struct ArrowKind {
   QString name;
   QColor colour;
   double (*push)(const solver::Pushes&);
@@ -28,8 +28,8 @@ struct Kind {
   double width;
 };
 
-std::vector<Kind> kinds(const std::vector<engine::PlaceForces>& forces) {
-  std::vector<Kind> kinds{
+std::vector<ArrowKind> kinds(const std::vector<engine::PlaceForces>& forces) {
+  std::vector<ArrowKind> kinds{
       {tr("data"), kDataColour, [](const solver::Pushes& p) { return p.data; }, -1.0, 1.6},
       {tr("curvature"), kCurvatureColour, [](const solver::Pushes& p) { return p.curvature; }, 1.0, 1.6}};
   const auto advects = [](const engine::PlaceForces& at) { return at.pushes.advection != 0.0; };
@@ -51,10 +51,10 @@ double round_up(double value) {
 }
 
 // What the longest arrow stands for: few places push harder.
-double largest_push(const std::vector<engine::PlaceForces>& forces, const std::vector<Kind>& kinds) {
+double largest_push(const std::vector<engine::PlaceForces>& forces, const std::vector<ArrowKind>& kinds) {
   std::vector<double> pushes;
   for (const engine::PlaceForces& at : forces) {
-    for (const Kind& kind : kinds) pushes.push_back(std::abs(kind.push(at.pushes)));
+    for (const ArrowKind& kind : kinds) pushes.push_back(std::abs(kind.push(at.pushes)));
   }
   if (pushes.empty()) return 0.0;
   const auto nearly_last = pushes.begin() + static_cast<std::ptrdiff_t>(pushes.size() * 19 / 20);
@@ -87,7 +87,7 @@ QPointF on_screen(const SurfaceScreen& screen, glm::dvec3 place_mm, glm::dvec3 o
 }
 
 // At the right, above the scale bar.
-void paint_key(QPainter& painter, const std::vector<Kind>& kinds, double largest_mm, QSizeF size) {
+void paint_key(QPainter& painter, const std::vector<ArrowKind>& kinds, double largest_mm, QSizeF size) {
   constexpr double kMargin = 12.0;
   constexpr double kScaleBar = 40.0;
   constexpr double kDash = 16.0;
@@ -112,7 +112,7 @@ void paint_key(QPainter& painter, const std::vector<Kind>& kinds, double largest
 
 void paint_forces(QPainter& painter, const std::vector<engine::PlaceForces>& forces, double spacing_mm,
                   const SurfaceScreen& screen) {
-  const std::vector<Kind> drawn = kinds(forces);
+  const std::vector<ArrowKind> drawn = kinds(forces);
   const double most = largest_push(forces, drawn);
   if (most <= 0.0) return;
   const double longest = round_up(most);

@@ -40,7 +40,8 @@ std::string tables() {
     text += fmt::format("| {} | {} | {} |\n", name_of(uid), uid, compressed ? "yes" : "no");
   }
   text +=
-      "\n## Transfer syntaxes\n\nThe first two for every class and for queries; all for the images above.\n\n"
+      "\n## Transfer syntaxes\n\nThe first two for every class and for queries; all of them for the classes "
+      "with a yes above.\n\n"
       "| transfer syntax | UID |\n|---|---|\n";
   for (const std::string& uid : imaging::storage_syntaxes())
     text += fmt::format("| {} | {} |\n", name_of(uid), uid);
