@@ -16,7 +16,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kPictureWidth = 300;  // px at 96 dots per inch: two beside each other on a page
+constexpr QSize kPicture(250, 280);  // px at 96 dots per inch: two beside each other on a page
 
 // A region of the case with its measures.
 struct Reported {
@@ -171,8 +171,10 @@ QString picture(const QImage& image) {
   QBuffer buffer(&png);
   buffer.open(QIODevice::WriteOnly);
   image.save(&buffer, "PNG");
-  return QStringLiteral("<img width='%1' src='data:image/png;base64,%2'/>")
-      .arg(kPictureWidth)
+  const QSize size = image.size().scaled(kPicture, Qt::KeepAspectRatio);
+  return QStringLiteral("<img width='%1' height='%2' src='data:image/png;base64,%3'/>")
+      .arg(size.width())
+      .arg(size.height())
       .arg(QString::fromLatin1(png.toBase64()));
 }
 
@@ -182,7 +184,8 @@ QString pictures(const std::vector<std::pair<QString, QImage>>& all) {
   for (std::size_t n = 0; n < all.size(); n += 2) {
     whole += QStringLiteral("<tr>");
     for (std::size_t m = n; m < std::min(n + 2, all.size()); ++m)
-      whole += QStringLiteral("<td>%1<br/>%2</td>").arg(picture(all[m].second), all[m].first.toHtmlEscaped());
+      whole += QStringLiteral("<td valign='top'>%1<br/>%2</td>")
+                   .arg(picture(all[m].second), all[m].first.toHtmlEscaped());
     whole += QStringLiteral("</tr>");
   }
   return whole + QStringLiteral("</table>");
