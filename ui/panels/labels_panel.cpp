@@ -2,7 +2,7 @@
 
 #include <QCheckBox>
 #include <QColorDialog>
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
@@ -81,10 +81,11 @@ QWidget* LabelsPanel::make_table() {
 
 QWidget* LabelsPanel::make_table_buttons() {
   auto* buttons = new QWidget;
-  auto* row = new QHBoxLayout(buttons);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(kSpaceTight);
-  const auto make = [row](const QString& text, QStringView picture, const QString& tip) {
+  auto* rows = new QGridLayout(buttons);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(kSpaceTight);
+  rows->setColumnStretch(2, 1);
+  const auto make = [rows](const QString& text, QStringView picture, const QString& tip) {
     auto* button = new QToolButton;
     button->setText(text);
     button->setIcon(icon(picture));
@@ -93,7 +94,8 @@ QWidget* LabelsPanel::make_table_buttons() {
     button->setFocusPolicy(Qt::StrongFocus);
     button->setToolTip(tip);
     button->setAccessibleName(text);
-    row->addWidget(button);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    rows->addWidget(button, rows->count() / 2, rows->count() % 2);
     return button;
   };
   auto* add = make(tr("Add"), u"add", tr("Adds an empty label."));
@@ -109,7 +111,6 @@ QWidget* LabelsPanel::make_table_buttons() {
            tr("Paints what the mouse goes around in a slice. Left button: adds. Right button: takes away."));
   outline_->setCheckable(true);
   connect(outline_, &QToolButton::clicked, this, [this] { paint_by(true); });
-  row->addStretch(1);
   connect(add, &QToolButton::clicked, this, &LabelsPanel::add_label);
   connect(remove_, &QToolButton::clicked, this, [this] {
     if (proxy() && chosen()) proxy()->remove_label(chosen()->id);

@@ -38,21 +38,25 @@ MeasureControls::MeasureControls(QWidget* parent) : CaseWidget(parent) {
   work_ = new WorkLine;
   form.wide(work_);
   connect(work_, &WorkLine::cancelled, this, [this] { meter_.cancel(); });
+  results_ = new QWidget;
+  Form figures(results_);
   in_slice_ =
-      form.figure(tr("In a slice"), tr("The longest diameter in an axial slice, and the longest at right "
-                                       "angles to it: the two of RECIST."));
-  longest_ = form.figure(tr("Longest"), tr("The longest diameter in any direction."));
-  reach_ = form.figure(tr("Reach"), tr("How far it reaches along its three main axes."));
-  area_ = form.figure(tr("Surface area"), tr("The area of its surface."));
-  sphericity_ = form.figure(tr("Sphericity"), tr("1 for a ball, less for any other form."));
-  image_ = form.choice(tr("Values of"), tr("The image whose values inside are listed."));
+      figures.figure(tr("In a slice"), tr("The longest diameter in an axial slice, and the longest at right "
+                                          "angles to it: the two of RECIST."));
+  longest_ = figures.figure(tr("Longest"), tr("The longest diameter in any direction."));
+  reach_ = figures.figure(tr("Reach"), tr("How far it reaches along its three main axes."));
+  area_ = figures.figure(tr("Surface area"), tr("The area of its surface."));
+  sphericity_ = figures.figure(tr("Sphericity"), tr("1 for a ball, less for any other form."));
+  image_ = figures.choice(tr("Values of"), tr("The image whose values inside are listed."));
   connect(image_, &QComboBox::activated, this, &MeasureControls::fill_values);
   values_ = new FigureTable({tr("Values inside"), tr("Value")}, tr("Values inside"));
-  form.wide(values_);
+  figures.wide(values_);
   lines_ = new QPushButton(tr("Draw diameters"));
   lines_->setToolTip(tr("As lines in the slices, whose ends can be moved with the tool Distance."));
-  form.wide(lines_);
+  figures.wide(lines_);
   connect(lines_, &QPushButton::clicked, this, &MeasureControls::draw_lines);
+  result_rows_ = figures.layout();
+  form.wide(results_);
   rows_ = form.layout();
   connect(&meter_, &engine::RegionMeter::measured, this, [this](const auto& measures) {
     end_work({});
@@ -82,8 +86,7 @@ void MeasureControls::measure() {
 
 void MeasureControls::show_measures(const std::shared_ptr<const document::Measures>& measures) {
   measures_ = measures;
-  for (QWidget* row : std::initializer_list<QWidget*>{in_slice_, longest_, reach_, sphericity_, lines_})
-    rows_->setRowVisible(row, measures != nullptr);
+  rows_->setRowVisible(results_, measures != nullptr);
   image_->clear();
   if (measures) {
     const imaging::Diameters& d = measures->diameters;
@@ -92,14 +95,15 @@ void MeasureControls::show_measures(const std::shared_ptr<const document::Measur
     in_slice_->setText(times({number(d.in_slice.length_mm()), mm(d.across.length_mm())}));
     longest_->setText(mm(d.longest.length_mm()));
     reach_->setText(times({number(d.reach_mm.x), number(d.reach_mm.y), mm(d.reach_mm.z)}));
-    area_->setText(number_text(measures->area_mm2, 0, tr("mm²")));
+    // The surface's as it stands above: as the solver measures it.
+    const bool of_surface = proxy() && region() == document::kTheSurface;
+    const double area_mm2 = of_surface ? proxy()->state().surface.surface_mm2 : measures->area_mm2;
+    area_->setText(number_text(area_mm2, 0, tr("mm²")));
     sphericity_->setText(number_text(measures->sphericity, 3));
     for (const document::ImageValues& image : measures->images)
       image_->addItem(QString::fromStdString(image.image));
   }
-  // The surface's stands above, as the solver measures it.
-  rows_->setRowVisible(area_, measures != nullptr && region() != document::kTheSurface);
-  rows_->setRowVisible(image_, image_->count() > 1);
+  result_rows_->setRowVisible(image_, image_->count() > 1);
   fill_values();
   show_buttons();
 }

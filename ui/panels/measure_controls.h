@@ -44,6 +44,8 @@ class MeasureControls : public CaseWidget {
   std::int64_t step_ = 0;  // of the case when it was asked
   std::uint64_t edits_ = 0;
   QFormLayout* rows_;
+  QWidget* results_;  // all that was measured
+  QFormLayout* result_rows_;
   QComboBox* region_;
   QPushButton* measure_;
   WorkLine* work_;
