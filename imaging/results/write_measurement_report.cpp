@@ -169,6 +169,9 @@ Status ReportWriter::write(const std::vector<ReportedSegment>& segments, const s
   identify(document);
   auto dataset = std::make_unique<DcmDataset>();
   failure_ << document.write(*dataset);
+  // DCMTK's own name the machine.
+  for (const DcmTagKey& uid : {DCM_SOPInstanceUID, DCM_SeriesInstanceUID})
+    failure_ << dataset->putAndInsertString(DcmTag(uid), make_uid().c_str());
   TIDEMARK_TRY(failure_.status(file_));
   return save_object(std::move(dataset), EXS_LittleEndianExplicit, file_);
 }

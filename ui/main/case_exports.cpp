@@ -59,7 +59,7 @@ std::vector<std::pair<QString, QString>> parameters_of(const engine::CaseProxy& 
   return parameters;
 }
 
-// The patient is named where the views name him, too.
+// The patient is named while the views do so, too.
 ReportSource report_source(CaseWindow& window) {
   engine::CaseProxy& proxy = window.proxy();
   const engine::LoadedStudy& study = proxy.study();
