@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "document/segment_meshes.h"
 
@@ -42,7 +41,7 @@ Json values(const ImageValues& image) {
 }  // namespace
 
 Result<Measures> measure(const Region& region, const Geometry& grid, const std::vector<MeasuredImage>& images,
-                         const imaging::Mesh* surface, const Progress& progress) {
+                         const solver::Field* phi, const Progress& progress) {
   const auto diameters = imaging::diameters_of(region, grid);
   if (!diameters) return fail(ErrorKind::usage, "there is nothing to measure: no voxel is inside");
   Measures measures;
@@ -51,13 +50,8 @@ Result<Measures> measure(const Region& region, const Geometry& grid, const std::
   measures.volume_ml = static_cast<double>(measures.voxels) * grid.voxel_volume_ml();
   if (progress.cancelled()) return cancelled_error();
   progress(0.3, "surface");
-  std::optional<imaging::Mesh> own;
-  if (surface == nullptr) {
-    auto mesh = mesh_of(mask_of(region, grid));
-    if (!mesh) return pass_on(mesh);
-    own = std::move(*mesh);
-    surface = &*own;
-  }
+  const auto surface = phi != nullptr ? mesh_of(*phi) : mesh_of(mask_of(region, grid));
+  if (!surface) return pass_on(surface);
   measures.area_mm2 = imaging::mesh_area_mm2(*surface);
   measures.sphericity = sphericity_of(*surface);
   for (const MeasuredImage& image : images) {

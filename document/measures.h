@@ -9,7 +9,7 @@
 #include "core/progress.h"
 #include "imaging/regions/diameters.h"
 #include "imaging/regions/inside_values.h"
-#include "imaging/surface/surface.h"
+#include "solver/field.h"
 
 namespace tidemark::document {
 
@@ -35,10 +35,10 @@ struct Measures {
   std::vector<ImageValues> images;
 };
 
-// With the surface of a level set; null: it runs half way between voxels inside and outside. Fails
+// With the surface of that level set; null: it runs half way between voxels inside and outside. Fails
 // (ErrorKind::usage) on an empty region, (ErrorKind::cancelled), and as extract_surface() does.
 Result<Measures> measure(const Region& region, const Geometry& grid, const std::vector<MeasuredImage>& images,
-                         const imaging::Mesh* surface = nullptr, const Progress& progress = {});
+                         const solver::Field* phi = nullptr, const Progress& progress = {});
 
 // As `tidemark-cli measure --json` writes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Measures& measures);

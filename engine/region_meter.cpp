@@ -1,12 +1,10 @@
 #include "engine/region_meter.h"
 
 #include <QCoreApplication>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "document/label_tool.h"
-#include "document/segment_meshes.h"
 #include "engine/case_proxy.h"
 
 namespace tidemark::engine {
@@ -36,14 +34,8 @@ Result<Answer> computed(const Wanted& wanted, const Progress& progress) {
     if (!voxels) return pass_on(voxels);
     images.push_back({image->name, std::move(*voxels)});
   }
-  std::optional<imaging::Mesh> surface;
-  if (wanted.label == document::kTheSurface && wanted.from.phi) {
-    auto mesh = document::mesh_of(*wanted.from.phi);
-    if (!mesh) return pass_on(mesh);
-    surface = std::move(*mesh);
-  }
-  auto measures = document::measure(wanted.from.region(wanted.label), grid, images,
-                                    surface ? &*surface : nullptr, progress);
+  const solver::Field* const phi = wanted.label == document::kTheSurface ? wanted.from.phi.get() : nullptr;
+  auto measures = document::measure(wanted.from.region(wanted.label), grid, images, phi, progress);
   if (!measures) return pass_on(measures);
   return std::make_shared<const document::Measures>(std::move(*measures));
 }

@@ -62,6 +62,22 @@ inline OFString text_of(const std::string& text) {
 // The colour of segments without one; systems that read them expect a colour.
 constexpr std::array<std::uint8_t, 3> kDefaultColour{255, 255, 0};
 
+// Gives an object of DCMTK's the patient and the study of another one.
+template <class Object>
+void copy_patient_and_study(DcmItem& from, Object& to, FirstFailure& failure) {
+  const auto copied = [&](const DcmTagKey& key) { return text_of(element_text(from, key)); };
+  failure << to.setPatientName(copied(DCM_PatientName), OFFalse);
+  failure << to.setPatientID(copied(DCM_PatientID), OFFalse);
+  failure << to.setPatientBirthDate(copied(DCM_PatientBirthDate), OFFalse);
+  failure << to.setPatientSex(copied(DCM_PatientSex), OFFalse);
+  failure << to.setStudyDate(copied(DCM_StudyDate), OFFalse);
+  failure << to.setStudyTime(copied(DCM_StudyTime), OFFalse);
+  failure << to.setStudyID(copied(DCM_StudyID), OFFalse);
+  failure << to.setStudyDescription(copied(DCM_StudyDescription), OFFalse);
+  failure << to.setAccessionNumber(copied(DCM_AccessionNumber), OFFalse);
+  failure << to.setReferringPhysicianName(copied(DCM_ReferringPhysicianName), OFFalse);
+}
+
 // Whether slices of the grid can be DICOM image planes: columns and rows within 65535, orthonormal
 // directions. Fails with ErrorKind::capability.
 Status require_planes(const Geometry& geometry, const std::filesystem::path& file);

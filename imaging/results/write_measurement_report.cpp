@@ -131,21 +131,10 @@ void ReportWriter::add(const DescribedSegment& segment, const std::vector<Report
 
 // The patient and the study are the segmentation's, the series is a new one.
 void ReportWriter::identify(DSRDocument& document) {
-  DcmDataset& source = source_.object.dataset();
-  const auto copied = [&](const DcmTagKey& key) { return text_of(element_text(source, key)); };
   const Timestamp now = Timestamp::now();
   failure_ << document.setSpecificCharacterSetType(DSRTypes::CS_UTF8);
   failure_ << document.createNewSeriesInStudy(text_of(source_.study_uid));
-  failure_ << document.setPatientName(copied(DCM_PatientName), OFFalse);
-  failure_ << document.setPatientID(copied(DCM_PatientID), OFFalse);
-  failure_ << document.setPatientBirthDate(copied(DCM_PatientBirthDate), OFFalse);
-  failure_ << document.setPatientSex(copied(DCM_PatientSex), OFFalse);
-  failure_ << document.setStudyDate(copied(DCM_StudyDate), OFFalse);
-  failure_ << document.setStudyTime(copied(DCM_StudyTime), OFFalse);
-  failure_ << document.setStudyID(copied(DCM_StudyID), OFFalse);
-  failure_ << document.setStudyDescription(copied(DCM_StudyDescription), OFFalse);
-  failure_ << document.setAccessionNumber(copied(DCM_AccessionNumber), OFFalse);
-  failure_ << document.setReferringPhysicianName(copied(DCM_ReferringPhysicianName), OFFalse);
+  copy_patient_and_study(source_.object.dataset(), document, failure_);
   failure_ << document.setSeriesNumber("1002") << document.setInstanceNumber("1");
   failure_ << document.setSeriesDescription("Tidemark measurements");
   failure_ << document.setSeriesDate(text_of(now.date)) << document.setSeriesTime(text_of(now.time));

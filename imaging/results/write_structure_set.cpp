@@ -82,21 +82,10 @@ class StructureSetWriter {
 
 // The patient and the study are the source's, the series is a new one.
 void StructureSetWriter::identify() {
-  DcmDataset& source = study_.attributes();
   const Timestamp now = Timestamp::now();
   failure_ << set_.setSpecificCharacterSet("ISO_IR 192");
-  failure_ << set_.setPatientName(text_of(element_text(source, DCM_PatientName)), OFFalse);
-  failure_ << set_.setPatientID(text_of(element_text(source, DCM_PatientID)), OFFalse);
-  failure_ << set_.setPatientBirthDate(text_of(element_text(source, DCM_PatientBirthDate)), OFFalse);
-  failure_ << set_.setPatientSex(text_of(element_text(source, DCM_PatientSex)), OFFalse);
+  copy_patient_and_study(study_.attributes(), set_, failure_);
   failure_ << set_.setStudyInstanceUID(text_of(study_.study_uid), OFFalse);
-  failure_ << set_.setStudyDate(text_of(element_text(source, DCM_StudyDate)), OFFalse);
-  failure_ << set_.setStudyTime(text_of(element_text(source, DCM_StudyTime)), OFFalse);
-  failure_ << set_.setStudyID(text_of(element_text(source, DCM_StudyID)), OFFalse);
-  failure_ << set_.setStudyDescription(text_of(element_text(source, DCM_StudyDescription)), OFFalse);
-  failure_ << set_.setAccessionNumber(text_of(element_text(source, DCM_AccessionNumber)), OFFalse);
-  failure_ << set_.setReferringPhysicianName(text_of(element_text(source, DCM_ReferringPhysicianName)),
-                                             OFFalse);
 
   failure_ << set_.setSOPInstanceUID(text_of(make_uid())) << set_.setSeriesInstanceUID(text_of(make_uid()));
   failure_ << set_.setModality("RTSTRUCT") << set_.setSeriesNumber("1001");

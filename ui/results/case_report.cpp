@@ -8,7 +8,6 @@
 
 #include "core/atomic_file.h"
 #include "document/label_tool.h"
-#include "document/segment_meshes.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/pdf_file.h"
 #include "ui/widgets/tr.h"
@@ -72,13 +71,8 @@ Result<std::vector<Reported>> measure_all(const ReportSource& source,
   const auto add = [&](const QString& name, const QString& colour, std::uint8_t label) -> Status {
     const Region region = regions.region(label);
     if (region.empty()) return {};
-    std::optional<imaging::Mesh> surface;
-    if (label == document::kTheSurface) {
-      auto mesh = document::mesh_of(*contents.phi);
-      if (!mesh) return pass_on(mesh);
-      surface = std::move(*mesh);
-    }
-    auto measures = document::measure(region, contents.geometry, images, surface ? &*surface : nullptr);
+    auto measures = document::measure(region, contents.geometry, images,
+                                      label == document::kTheSurface ? contents.phi.get() : nullptr);
     if (!measures) return pass_on(measures);
     all.push_back({name, colour, std::move(*measures)});
     return {};
