@@ -6,6 +6,7 @@
 
 #include "document/recovery_folder.h"
 #include "engine/background_job.h"
+#include "engine/message_text.h"
 
 namespace tidemark::engine {
 
@@ -97,7 +98,7 @@ void CaseAutosave::copied(const Status& status) {
   writing_ = false;
   if (status) return emit saved();
   failed_ = true;
-  emit failed(QString::fromStdString(status.error().message));
+  emit failed(message_text(status.error()));
 }
 
 std::filesystem::path recovery_folder() {

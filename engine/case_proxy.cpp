@@ -21,6 +21,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
       study_(std::move(study)),
       truth_(restored.truth(*study_)),
       weak_receiver_(WeakReceiver::of(this)),
+      askers_(WeakReceiver::of(this)),
       sweep_(std::make_unique<CaseSweep>(*this)),
       label_finisher_(std::make_unique<LabelFinisher>(*this)),
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
@@ -54,6 +55,7 @@ CaseProxy::~CaseProxy() {
   balance_.reset();
   passes_.reset();
   weak_receiver_->close();
+  askers_->close();
   engine_.cancel(runner_.get());
   // Its objects die where they live.
   engine_.post(Priority::edit, nullptr, [runner = std::move(runner_)](const std::stop_token&) mutable {
@@ -272,13 +274,18 @@ void CaseProxy::go_to(std::uint64_t state) {
   post([state](CaseRunner& runner, const Progress&) { return runner.go_to(state); });
 }
 
+void CaseProxy::forget_askers() {
+  askers_->close();
+  askers_ = WeakReceiver::of(this);
+}
+
 void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
                      std::function<void(std::optional<renderer::Hit>)> answer) {
-  post([view, size, pixel, answer = std::move(answer), weak_receiver = weak_receiver_](
-           CaseRunner& runner, const Progress&) -> Status {
+  post([view, size, pixel, answer = std::move(answer), askers = askers_](CaseRunner& runner,
+                                                                         const Progress&) -> Status {
     const auto hit = runner.painter().pick(view, size, pixel, runner.document());
     if (!hit) return pass_on(hit);
-    weak_receiver->send([answer, found = *hit] { answer(found); });
+    askers->send([answer, found = *hit] { answer(found); });
     return {};
   });
 }
@@ -305,8 +312,7 @@ void CaseProxy::take_snapshot(std::string view_state,
   for (const ShownImage& shown : display_.settings().images) images.push_back(shown.image);
   post([view_state = std::move(view_state), images = std::move(images),
         truth = has_another_truth() ? truth_ : nullptr, answer = std::move(answer),
-        gave_up = std::move(gave_up),
-        weak_receiver = weak_receiver_](CaseRunner& runner, const Progress&) -> Status {
+        gave_up = std::move(gave_up), askers = askers_](CaseRunner& runner, const Progress&) -> Status {
     const Taken taken = without_exceptions([&]() -> Taken {
       document::Case& document = runner.document();
       document.view_state = view_state;
@@ -318,10 +324,10 @@ void CaseProxy::take_snapshot(std::string view_state,
       return std::make_shared<const Snapshot>(Snapshot{std::move(*contents), document.history().position()});
     });
     if (taken) {
-      weak_receiver->send([answer, snapshot = *taken] { answer(snapshot); });
+      askers->send([answer, snapshot = *taken] { answer(snapshot); });
       return {};
     }
-    if (gave_up) weak_receiver->send(gave_up);
+    if (gave_up) askers->send(gave_up);
     return pass_on(taken);
   });
 }

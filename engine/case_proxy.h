@@ -148,6 +148,10 @@ class CaseProxy : public QObject {
   // With `within_mm` the label is refined: the surface stays that near to it.
   void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
+  // The window that shows the case goes, the case stays: whoever waits for pick() or take_snapshot() gets no
+  // answer any more.
+  void forget_askers();
+
   // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,
   // or never when the case is closed before.
   void pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
@@ -204,6 +208,7 @@ class CaseProxy : public QObject {
   Display display_;
   StateComparison comparison_;
   std::shared_ptr<WeakReceiver> weak_receiver_;
+  std::shared_ptr<WeakReceiver> askers_;  // of the window that shows it
   std::shared_ptr<CaseRunner> runner_;
   std::shared_ptr<LockStep> lock_step_;
   std::unique_ptr<CaseSweep> sweep_;

@@ -7,6 +7,7 @@
 #include "core/without_exceptions.h"
 #include "engine/change_text.h"
 #include "engine/lock_step.h"
+#include "engine/message_text.h"
 
 namespace tidemark::engine {
 CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
@@ -38,9 +39,7 @@ SpeedMaker::Report CaseRunner::report() const {
   return [weak_receiver = receiver_.weak_receiver, progressed = receiver_.progressed](double fraction,
                                                                                       std::string_view what) {
     weak_receiver->send(
-        [progressed, fraction, text = QString::fromUtf8(what.data(), static_cast<qsizetype>(what.size()))] {
-          progressed(fraction, text);
-        });
+        [progressed, fraction, text = message_text(std::string(what))] { progressed(fraction, text); });
   };
 }
 
@@ -125,8 +124,7 @@ void CaseRunner::recover(const Error& error) {
 
 void CaseRunner::report_failure(const Error& error) {
   if (error.kind == ErrorKind::cancelled) return;
-  receiver_.weak_receiver->send(
-      [failed = receiver_.failed, text = QString::fromStdString(error.message)] { failed(text); });
+  receiver_.weak_receiver->send([failed = receiver_.failed, text = message_text(error)] { failed(text); });
 }
 
 void CaseRunner::phi_changed() {

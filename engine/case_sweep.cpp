@@ -1,9 +1,8 @@
 #include "engine/case_sweep.h"
 
-#include <QCoreApplication>
-
 #include "document/sweep_picture.h"
 #include "engine/case_proxy.h"
+#include "engine/message_text.h"
 
 namespace tidemark::engine {
 namespace {
@@ -11,10 +10,6 @@ namespace {
 constexpr int kPictureSide = 128;  // pixels
 // Of what a solver may take: the case's own executor has the other half.
 constexpr std::int64_t kBudgetShare = 2;
-
-[[maybe_unused]] constexpr const char* kSweepSteps[] = {
-    QT_TRANSLATE_NOOP("tidemark::SweepStep", "runs"),
-};
 
 QImage image_of(const document::SweepPicture& picture) {
   return QImage(picture.pixels.data(), picture.side, picture.side, QImage::Format_RGBA8888).copy();
@@ -66,7 +61,7 @@ Result<std::shared_ptr<const SweepOutcome>> computed(const document::SweepStart&
 
 }  // namespace
 
-CaseSweep::CaseSweep(CaseProxy& proxy) : JobRunner("tidemark::SweepStep", nullptr), proxy_(proxy) {
+CaseSweep::CaseSweep(CaseProxy& proxy) : proxy_(proxy) {
   connect(this, &JobRunner::failed, this, &CaseSweep::changed);
   connect(this, &JobRunner::cancelled, this, &CaseSweep::changed);
 }
@@ -80,7 +75,7 @@ void CaseSweep::start(const std::vector<document::SweepAxis>& axes) {
     if (this_time != asked_ || !waiting_) return;
     waiting_ = false;
     if (start) return compute(*start, options);
-    emit failed(QString::fromStdString(start.error().message));
+    emit failed(message_text(start.error()));
   });
   emit changed();
 }

@@ -1,11 +1,11 @@
 #include "engine/job_runner.h"
 
-#include <QCoreApplication>
 #include <mutex>
 #include <string>
 #include <string_view>
 
 #include "engine/background_job.h"
+#include "engine/message_text.h"
 
 namespace tidemark::engine {
 namespace {
@@ -18,24 +18,23 @@ struct LastWord {
   bool waits = false;
 };
 
-// A step as the folders below name it, in the user's language, with a capital letter.
-QString step_text(const char* context, const std::string& step) {
-  QString text = QCoreApplication::translate(context, step.c_str());
+// With a capital letter.
+QString step_text(const std::string& step) {
+  QString text = message_text(step);
   if (!text.isEmpty()) text[0] = text[0].toUpper();
   return text;
 }
 
 // `hear` is called on the receiver's thread. The job must outlive the work.
-Progress progress_of(BackgroundJob& job, const char* context,
-                     std::function<void(double fraction, const QString& step)> hear) {
+Progress progress_of(BackgroundJob& job, std::function<void(double fraction, const QString& step)> hear) {
   const auto last = std::make_shared<LastWord>();
-  const auto hear_last = [last, context, hear = std::move(hear)] {
+  const auto hear_last = [last, hear = std::move(hear)] {
     std::unique_lock lock(last->mutex);
     last->waits = false;
     const double fraction = last->fraction;
     const std::string step = last->step;
     lock.unlock();
-    hear(fraction, step_text(context, step));
+    hear(fraction, step_text(step));
   };
   Progress progress;
   progress.stop = job.stop();
@@ -58,9 +57,9 @@ void JobRunner::start(std::function<Ending(const Progress&)> work) {
   if (job_) job_->abandon();
   job_ = BackgroundJob::start(
       this,
-      [this, steps = steps_, work = std::move(work)](BackgroundJob& job) {
+      [this, work = std::move(work)](BackgroundJob& job) {
         const Progress progress = progress_of(
-            job, steps, [this](double fraction, const QString& step) { emit progressed(fraction, step); });
+            job, [this](double fraction, const QString& step) { emit progressed(fraction, step); });
         job.deliver([this, ending = work(progress)] {
           job_.reset();
           ending();
@@ -74,7 +73,7 @@ void JobRunner::start(std::function<Ending(const Progress&)> work) {
 
 void JobRunner::end_by(const Error& error) {
   if (error.kind == ErrorKind::cancelled) return emit cancelled();
-  emit failed(QString::fromStdString(error.message));
+  emit failed(message_text(error));
 }
 
 void JobRunner::give_up() {

@@ -25,14 +25,14 @@ class JobRunner : public QObject {
   [[nodiscard]] bool busy() const { return job_ != nullptr; }
 
  signals:
-  // fraction in 0..1 of the step named by `step` ("Reading headers"); below 0 when unknown.
+  // fraction in 0..1 of the step named by `step` ("Reading headers", in the user's language); below 0 when
+  // unknown.
   void progressed(double fraction, const QString& step);
   void failed(const QString& message);
   void cancelled();
 
  protected:
-  // `steps` is the context under which the names of steps are translated: a literal.
-  JobRunner(const char* steps, QObject* parent) : QObject(parent), steps_(steps) {}
+  using QObject::QObject;
 
   // Calls work(progress) on a thread and deliver(value) here. The work returns a Result or a Status and must
   // hold nothing of ours. It ends with failed() when it fails, and with cancelled() when it was stopped.
@@ -61,7 +61,6 @@ class JobRunner : public QObject {
   void start(std::function<Ending(const Progress&)> work);
   void end_by(const Error& error);
 
-  const char* steps_;
   std::shared_ptr<BackgroundJob> job_;
 };
 

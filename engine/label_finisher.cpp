@@ -1,6 +1,5 @@
 #include "engine/label_finisher.h"
 
-#include <QCoreApplication>
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -9,12 +8,6 @@
 
 namespace tidemark::engine {
 namespace {
-
-[[maybe_unused]] constexpr const char* kLabelSteps[] = {
-    QT_TRANSLATE_NOOP("tidemark::LabelStep", "margin"),
-    QT_TRANSLATE_NOOP("tidemark::LabelStep", "smoothing"),
-    QT_TRANSLATE_NOOP("tidemark::LabelStep", "slices"),
-};
 
 using Preview = std::shared_ptr<const LabelPreview>;
 
@@ -37,7 +30,7 @@ Result<Preview> computed(LabelPreview preview, const Progress& progress) {
 
 }  // namespace
 
-LabelFinisher::LabelFinisher(CaseProxy& proxy) : JobRunner("tidemark::LabelStep", nullptr), proxy_(proxy) {}
+LabelFinisher::LabelFinisher(CaseProxy& proxy) : proxy_(proxy) {}
 
 void LabelFinisher::begin(const document::LabelToolUse& use, const std::vector<std::uint8_t>& labels) {
   const CaseState& state = proxy_.state();

@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "engine/background_job.h"
+#include "engine/message_text.h"
 
 namespace tidemark::engine {
 
@@ -74,7 +75,7 @@ void LessonAutosave::copied(const Status& status) {
   writing_ = false;
   if (!status) {
     failed_ = true;
-    return emit failed(QString::fromStdString(status.error().message));
+    return emit failed(message_text(status.error()));
   }
   emit saved();
   follow();

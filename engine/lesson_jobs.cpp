@@ -1,6 +1,5 @@
 #include "engine/lesson_jobs.h"
 
-#include <QCoreApplication>
 #include <utility>
 
 #include "core/atomic_file.h"
@@ -9,11 +8,11 @@
 namespace tidemark::engine {
 namespace {
 
-constexpr const char* kCarryingOut = QT_TRANSLATE_NOOP("tidemark::LessonStep", "carrying out the lesson");
+constexpr const char* kCarryingOut = "carrying out the lesson";
 
 }  // namespace
 
-LessonJobs::LessonJobs(QObject* parent) : JobRunner("tidemark::LessonStep", parent) {}
+LessonJobs::LessonJobs(QObject* parent) : JobRunner(parent) {}
 
 void LessonJobs::load(const std::filesystem::path& file) {
   using Loaded = std::shared_ptr<const document::Lesson>;

@@ -13,7 +13,7 @@ namespace tidemark::engine {
 class LessonMeter : public JobRunner {
   Q_OBJECT
  public:
-  explicit LessonMeter(QObject* parent = nullptr) : JobRunner("tidemark::LessonStep", parent) {}
+  explicit LessonMeter(QObject* parent = nullptr) : JobRunner(parent) {}
 
   // Of a state at rest, in which phi is the present one. Ends with measured() or failed().
   void measure(const std::vector<document::LessonMeasure>& measures, const CaseState& state,

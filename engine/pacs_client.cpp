@@ -1,21 +1,9 @@
 #include "engine/pacs_client.h"
 
-#include <QCoreApplication>
 #include <QTemporaryDir>
 
 namespace tidemark::engine {
 namespace {
-
-// Steps as imaging/pacs names them, for translators.
-[[maybe_unused]] constexpr const char* kPacsSteps[] = {
-    QT_TRANSLATE_NOOP("tidemark::PacsStep", "calling the server"),
-    QT_TRANSLATE_NOOP("tidemark::PacsStep", "asking the server"),
-    QT_TRANSLATE_NOOP("tidemark::PacsStep", "receiving objects"),
-    QT_TRANSLATE_NOOP("tidemark::PacsStep", "writing segments"),
-    QT_TRANSLATE_NOOP("tidemark::PacsStep", "writing contours"),
-    QT_TRANSLATE_NOOP("tidemark::PacsStep", "looking at the files"),
-    QT_TRANSLATE_NOOP("tidemark::PacsStep", "sending objects"),
-};
 
 Result<imaging::Sent> write_and_send(const imaging::PacsServer& server, const PacsClient::WriteFiles& write,
                                      const Progress& progress) {
@@ -31,7 +19,7 @@ Result<imaging::Sent> write_and_send(const imaging::PacsServer& server, const Pa
 
 }  // namespace
 
-PacsClient::PacsClient(QObject* parent) : JobRunner("tidemark::PacsStep", parent) {}
+PacsClient::PacsClient(QObject* parent) : JobRunner(parent) {}
 
 void PacsClient::echo(const imaging::PacsServer& server) {
   run([server](const Progress& progress) { return imaging::pacs_echo(server, progress); },

@@ -1,6 +1,5 @@
 #include "engine/region_meter.h"
 
-#include <QCoreApplication>
 #include <utility>
 #include <vector>
 
@@ -9,11 +8,6 @@
 
 namespace tidemark::engine {
 namespace {
-
-[[maybe_unused]] constexpr const char* kMeasureSteps[] = {
-    QT_TRANSLATE_NOOP("tidemark::MeasureStep", "surface"),
-    QT_TRANSLATE_NOOP("tidemark::MeasureStep", "values"),
-};
 
 // What is measured, as values.
 struct Wanted {
@@ -42,7 +36,7 @@ Result<Answer> computed(const Wanted& wanted, const Progress& progress) {
 
 }  // namespace
 
-RegionMeter::RegionMeter(QObject* parent) : JobRunner("tidemark::MeasureStep", parent) {}
+RegionMeter::RegionMeter(QObject* parent) : JobRunner(parent) {}
 
 void RegionMeter::begin(CaseProxy& proxy, std::uint8_t label) {
   const CaseState& state = proxy.state();

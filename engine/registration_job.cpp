@@ -1,17 +1,9 @@
 #include "engine/registration_job.h"
 
-#include <QCoreApplication>
-
 namespace tidemark::engine {
-namespace {
+namespace {}  // namespace
 
-[[maybe_unused]] constexpr const char* kRegistrationSteps[] = {
-    QT_TRANSLATE_NOOP("tidemark::RegistrationStep", "registering"),
-};
-
-}  // namespace
-
-RegistrationJob::RegistrationJob(QObject* parent) : JobRunner("tidemark::RegistrationStep", parent) {}
+RegistrationJob::RegistrationJob(QObject* parent) : JobRunner(parent) {}
 
 void RegistrationJob::start(std::shared_ptr<const document::CaseImage> image,
                             std::shared_ptr<const Volume> study) {

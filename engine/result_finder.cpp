@@ -68,7 +68,7 @@ Result<std::vector<FoundResult>> find_results(const imaging::Series& series,
 
 }  // namespace
 
-ResultFinder::ResultFinder(QObject* parent) : JobRunner("tidemark::LoadingStep", parent) {}
+ResultFinder::ResultFinder(QObject* parent) : JobRunner(parent) {}
 
 void ResultFinder::look(const imaging::Series& series, std::shared_ptr<const imaging::Catalogue> found_with) {
   run([series, found_with = std::move(found_with)](

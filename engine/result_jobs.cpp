@@ -1,25 +1,11 @@
 #include "engine/result_jobs.h"
 
-#include <QCoreApplication>
-
 #include "document/result_files.h"
 
 namespace tidemark::engine {
-namespace {
+namespace {}  // namespace
 
-// Steps as the folders below name them, for translators.
-[[maybe_unused]] constexpr const char* kResultSteps[] = {
-    QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing segments"),
-    QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing contours"),
-    QT_TRANSLATE_NOOP("tidemark::ResultStep", "measuring"),
-    QT_TRANSLATE_NOOP("tidemark::ResultStep", "writing the level set"),
-    QT_TRANSLATE_NOOP("tidemark::ResultStep", "reading labels"),
-    QT_TRANSLATE_NOOP("tidemark::ResultStep", "reading the volume"),
-};
-
-}  // namespace
-
-ResultJobs::ResultJobs(QObject* parent) : JobRunner("tidemark::ResultStep", parent) {}
+ResultJobs::ResultJobs(QObject* parent) : JobRunner(parent) {}
 
 void ResultJobs::write(std::function<Status(const Progress&)> work) {
   run(std::move(work), [this] { emit written(); });

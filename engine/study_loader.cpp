@@ -1,6 +1,5 @@
 #include "engine/study_loader.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 #include <algorithm>
 
@@ -14,17 +13,6 @@ namespace tidemark::engine {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Steps as the folders below name them, for translators.
-[[maybe_unused]] constexpr const char* kLoadingSteps[] = {
-    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "unpacking the archive"),
-    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "reading headers"),
-    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "decoding slices"),
-    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "reading the volume"),
-    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "measuring values"),
-    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "looking for a start"),
-    QT_TRANSLATE_NOOP("tidemark::LoadingStep", "making the phantom"),
-};
 
 // The first T and epsilon of a study.
 solver::Parameters suggest_parameters(const Volume& volume, const Progress& progress) {
@@ -110,7 +98,7 @@ Result<LoadedStudy> make_phantom_study(const std::string& name, const Progress& 
 
 }  // namespace
 
-StudyLoader::StudyLoader(QObject* parent) : JobRunner("tidemark::LoadingStep", parent) {}
+StudyLoader::StudyLoader(QObject* parent) : JobRunner(parent) {}
 
 void StudyLoader::scan(const fs::path& path, const imaging::GridPolicy& policy) {
   run([path, policy](const Progress& progress) { return find_choice(path, policy, progress); },

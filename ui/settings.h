@@ -1,27 +1,42 @@
 // The settings that the desktop keeps from one run to the next: each with its name, its type and its first
-// value. The list of recent studies keeps itself (RecentStudies).
+// value. The list of recent studies keeps itself (RecentStudies). A site's administrator may give first values for
+// all users, and lock them: docs/how-to/site.md.
 #pragma once
 
 #include <QByteArray>
 #include <QSettings>
 #include <QString>
+#include <QStringList>
+#include <vector>
 
 namespace tidemark::ui {
 
 enum class Theme;
 enum class ViewLayout;
 
+enum class SettingOrigin { program, site, user };
+
+// The site's file has it, and in its list "locked": the user's own value does not count.
+[[nodiscard]] bool is_locked(const QString& name);
+[[nodiscard]] SettingOrigin origin_of(const QString& name);
+// Invalid: neither the user nor the site has one.
+[[nodiscard]] QVariant setting_value(const QString& name);
+// The user's. Nothing happens to a locked one.
+void set_setting(const QString& name, const QVariant& value);
+
 template <class T>
 class Setting {
  public:
   explicit Setting(QString name, T at_first = {}) : name_(std::move(name)), at_first_(std::move(at_first)) {}
 
+  [[nodiscard]] const QString& name() const { return name_; }
   [[nodiscard]] T get() const {
-    const QVariant value = QSettings().value(name_);
+    const QVariant value = setting_value(name_);
     return value.isValid() ? value.value<T>() : at_first_;
   }
-  void set(const T& value) const { QSettings().setValue(name_, value); }
-  [[nodiscard]] bool is_set() const { return QSettings().contains(name_); }
+  [[nodiscard]] QString text() const { return QVariant(get()).toString(); }
+  void set(const T& value) const { set_setting(name_, value); }
+  [[nodiscard]] bool is_set() const { return setting_value(name_).isValid(); }
   void forget() const { QSettings().remove(name_); }
 
  private:
@@ -29,32 +44,47 @@ class Setting {
   T at_first_;
 };
 
-// One of an enumeration's first `count` values, kept as its number.
+// One of an enumeration's values, kept as its word. Its number counts too: so it was kept once.
 template <class Enum>
 class Choice {
  public:
-  Choice(const char* name, int count, int at_first)
-      : number_(QString::fromLatin1(name), at_first), count_(count), at_first_(at_first) {}
+  Choice(const char* name, QStringList words, int at_first)
+      : word_(QString::fromLatin1(name)), words_(std::move(words)), at_first_(at_first) {}
 
+  [[nodiscard]] const QString& name() const { return word_.name(); }
   [[nodiscard]] Enum get() const {
-    const int number = number_.get();
-    return static_cast<Enum>(number >= 0 && number < count_ ? number : at_first_);
+    const QString word = word_.get();
+    if (words_.contains(word)) return static_cast<Enum>(words_.indexOf(word));
+    bool is_number = false;
+    const int number = word.toInt(&is_number);
+    return static_cast<Enum>(is_number && number >= 0 && number < words_.size() ? number : at_first_);
   }
-  void set(Enum value) const { number_.set(static_cast<int>(value)); }
+  [[nodiscard]] QString text() const { return words_[static_cast<int>(get())]; }
+  void set(Enum value) const { word_.set(words_[static_cast<int>(value)]); }
 
  private:
-  Setting<int> number_;
-  int count_;
+  Setting<QString> word_;
+  QStringList words_;
   int at_first_;
+};
+
+struct SettingText {
+  QString name;
+  QString value;
+  SettingOrigin origin = SettingOrigin::program;
+  bool locked = false;
 };
 
 namespace settings {
 
 inline Choice<Theme> theme() {
-  return {"theme", 3, 0};
+  return {"theme", {"system", "light", "dark"}, 0};
+}
+inline Setting<QString> language() {  // its code; empty: the system's
+  return Setting<QString>("language");
 }
 inline Choice<ViewLayout> layout() {  // of the views of the next case
-  return {"layout", 4, 3};
+  return {"layout", {"single", "one-three", "two-two", "paper"}, 3};
 }
 inline Setting<QByteArray> window_geometry() {
   return Setting<QByteArray>("main/geometry");
@@ -85,6 +115,14 @@ inline Setting<QString> retrieval_folder(const QString& at_first) {
 inline Setting<QString> server() {  // by name; the one used last
   return Setting<QString>("pacs/server");
 }
+
+
+// $TIDEMARK_SITE/tidemark.conf, else /etc/tidemark/tidemark.conf, as QSettings writes INI files.
+[[nodiscard]] QString site_file();
+// Those that a site may give: neither how windows stand nor keys.
+[[nodiscard]] std::vector<SettingText> all();
+// As such a file, with where each value comes from.
+[[nodiscard]] QString print();
 
 }  // namespace settings
 }  // namespace tidemark::ui

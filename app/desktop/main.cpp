@@ -12,6 +12,7 @@
 #include "solver/host/page_kernel.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/main/language_switch.h"
 #include "ui/main/main_window.h"
 #include "ui/main/session_reader.h"
 #include "ui/settings.h"
@@ -61,7 +62,7 @@ bool can_start(int argc, char** argv) {
   }
   for (int i = 1; i < argc; ++i) {
     const QByteArray argument(argv[i]);
-    for (const char* one : {"-h", "--help", "-v", "--version", "--diagnostics"}) {
+    for (const char* one : {"-h", "--help", "-v", "--version", "--diagnostics", "--print-settings"}) {
       if (argument == one) return qputenv("QT_QPA_PLATFORM", "offscreen");
     }
   }
@@ -101,8 +102,15 @@ int main(int argc, char** argv) {
       "kind");
   const QCommandLineOption without_opengl(
       "no-opengl", QCoreApplication::translate("main", "Start without OpenGL: the processor draws."));
-  parser.addOptions({diagnostics, phantom, without_opengl});
+  const QCommandLineOption print_settings(
+      "print-settings",
+      QCoreApplication::translate("main", "Say each setting, its value and whose it is, and end."));
+  parser.addOptions({diagnostics, print_settings, phantom, without_opengl});
   parser.process(application);
+  if (parser.isSet(print_settings)) {
+    QTextStream(stdout) << ui::settings::print();
+    return 0;
+  }
 
   engine::Engine engine(!parser.isSet(without_opengl));
   if (const std::string& problem = engine.renderer_problem(); !problem.empty()) {
@@ -115,8 +123,8 @@ int main(int argc, char** argv) {
   QGuiApplication::setDesktopFileName("tidemark");
   QGuiApplication::setWindowIcon(ui::application_icon());
   ui::apply_theme(application, ui::settings::theme().get());
-  ui::MainWindow window(engine);
-  window.show();
+  ui::LanguageSwitch desktop(engine);
+  ui::MainWindow& window = desktop.window();
   window.session_reader().offer_rescued();
   for (const QString& study : parser.positionalArguments()) window.open(study);
   if (parser.isSet(phantom)) window.open_phantom(parser.value(phantom));

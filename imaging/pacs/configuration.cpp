@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/json/json.h"
 #include "core/json/json_field.h"
+#include "core/site_folder.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -171,6 +172,12 @@ fs::path pacs_configuration_file() {
   if (chosen != nullptr && *chosen == '/') return fs::path(chosen) / "tidemark/pacs.json";
   const char* home = std::getenv("HOME");
   return fs::path(home != nullptr ? home : "/") / ".config/tidemark/pacs.json";
+}
+
+fs::path pacs_configuration_to_read(const fs::path& own) {
+  std::error_code error;
+  const fs::path of_site = site_folder() / "pacs.json";
+  return !fs::exists(own, error) && fs::exists(of_site, error) ? of_site : own;
 }
 
 Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {

@@ -63,6 +63,9 @@ struct PacsConfiguration {
 // $XDG_CONFIG_HOME/tidemark/pacs.json, else ~/.config/tidemark/pacs.json.
 [[nodiscard]] std::filesystem::path pacs_configuration_file();
 
+// Which of both to read: `own` where it is there, else the site's, pacs.json in site_folder(), where that is.
+[[nodiscard]] std::filesystem::path pacs_configuration_to_read(const std::filesystem::path& own);
+
 // Files of certificates are relative to the configuration's folder. Fails (ErrorKind::input) naming the file
 // and the field at fault.
 Result<PacsConfiguration> read_pacs_configuration(const std::filesystem::path& file);

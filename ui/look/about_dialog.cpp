@@ -14,24 +14,24 @@ namespace tidemark::ui {
 namespace {
 
 constexpr ThirdPartyPart kParts[] = {
-    {"Qt 6", "LGPL-3.0-only", "windows and widgets"},
+    {"Qt 6", "LGPL-3.0-only", QT_TRANSLATE_NOOP("About", "windows and widgets")},
     {"DCMTK", "BSD-3-Clause", "DICOM"},
     {"OpenJPEG", "BSD-2-Clause", "JPEG 2000"},
-    {"ITK", "Apache-2.0", "NIfTI, NRRD, MetaImage and GIPL; smoothing"},
-    {"OpenVDB", "MPL-2.0", "polygons from the surface"},
-    {"Highway", "Apache-2.0", "vector instructions"},
-    {"GLM", "MIT", "vectors and matrices"},
-    {"libepoxy", "MIT", "OpenGL's functions"},
-    {"fmt", "MIT", "text of messages"},
-    {"spdlog", "MIT", "logs"},
-    {"tl::expected", "CC0-1.0", "errors as values"},
-    {"JSON for Modern C++", "MIT", "recipes, presets and figures"},
-    {"CLI11", "BSD-3-Clause", "the command line"},
-    {"libzip", "BSD-3-Clause", "session files"},
-    {"OpenSSL", "Apache-2.0", "checksums"},
-    {"zlib", "Zlib", "compressed files"},
-    {"libpng", "libpng-2.0", "pictures"},
-    {"giflib", "MIT", "films"},
+    {"ITK", "Apache-2.0", QT_TRANSLATE_NOOP("About", "NIfTI, NRRD, MetaImage and GIPL; smoothing")},
+    {"OpenVDB", "MPL-2.0", QT_TRANSLATE_NOOP("About", "polygons from the surface")},
+    {"Highway", "Apache-2.0", QT_TRANSLATE_NOOP("About", "vector instructions")},
+    {"GLM", "MIT", QT_TRANSLATE_NOOP("About", "vectors and matrices")},
+    {"libepoxy", "MIT", QT_TRANSLATE_NOOP("About", "OpenGL's functions")},
+    {"fmt", "MIT", QT_TRANSLATE_NOOP("About", "text of messages")},
+    {"spdlog", "MIT", QT_TRANSLATE_NOOP("About", "logs")},
+    {"tl::expected", "CC0-1.0", QT_TRANSLATE_NOOP("About", "errors as values")},
+    {"JSON for Modern C++", "MIT", QT_TRANSLATE_NOOP("About", "recipes, presets and figures")},
+    {"CLI11", "BSD-3-Clause", QT_TRANSLATE_NOOP("About", "the command line")},
+    {"libzip", "BSD-3-Clause", QT_TRANSLATE_NOOP("About", "session files")},
+    {"OpenSSL", "Apache-2.0", QT_TRANSLATE_NOOP("About", "checksums")},
+    {"zlib", "Zlib", QT_TRANSLATE_NOOP("About", "compressed files")},
+    {"libpng", "libpng-2.0", QT_TRANSLATE_NOOP("About", "pictures")},
+    {"giflib", "MIT", QT_TRANSLATE_NOOP("About", "films")},
 };
 
 QLabel* paragraph(const QString& text) {
@@ -90,12 +90,13 @@ QTableWidget* parts_table() {
   table->setObjectName(QStringLiteral("parts"));
   table->setAccessibleName(AboutDialog::tr("Third-party parts"));
   table->setHorizontalHeaderLabels(
-      {AboutDialog::tr("Part"), AboutDialog::tr("Licence"), AboutDialog::tr("What it is for")});
+      {AboutDialog::tr("Component"), AboutDialog::tr("Licence"), AboutDialog::tr("What it is for")});
   for (int row = 0; row < table->rowCount(); ++row) {
     const ThirdPartyPart& part = parts[static_cast<std::size_t>(row)];
     int column = 0;
-    for (const char* cell : {part.name, part.licence, part.purpose}) {
-      table->setItem(row, column++, new QTableWidgetItem(QString::fromLatin1(cell)));
+    for (const QString& cell : {QString::fromLatin1(part.name), QString::fromLatin1(part.licence),
+                                QCoreApplication::translate("About", part.purpose)}) {
+      table->setItem(row, column++, new QTableWidgetItem(cell));
     }
   }
   table->setEditTriggers(QAbstractItemView::NoEditTriggers);

@@ -4,6 +4,7 @@
 
 #include "engine/case_proxy.h"
 #include "ui/look/icons.h"
+#include "ui/look/language.h"
 #include "ui/settings.h"
 #include "ui/views/mouse_scheme.h"
 #include "ui/views/play.h"
@@ -129,6 +130,7 @@ void Actions::make_mouse() {
          tr("Without another tool, the left button drags window and level"));
   scheme(MouseScheme::itk_snap, "mouse-itk-snap", tr("&ITK-SNAP"),
          tr("Without another tool, the left button moves the crosshair; with Alt window and level"));
+  mouse_schemes->setEnabled(!is_locked(settings::mouse_scheme().name()));
   connect(mouse_schemes, &QActionGroup::triggered, this,
           [](QAction* chosen) { set_mouse_scheme(static_cast<MouseScheme>(chosen->data().toInt())); });
 }
@@ -231,6 +233,25 @@ void Actions::make_views() {
   theme(0, "theme-system", nullptr, tr("As the &system"));
   theme(1, "theme-light", "theme-light", tr("&Light"));
   theme(2, "theme-dark", "theme-dark", tr("&Dark"));
+  themes->setEnabled(!is_locked(settings::theme().name()));
+  make_languages();
+}
+
+// Each in its own words, so that everyone finds theirs.
+void Actions::make_languages() {
+  languages = new QActionGroup(this);
+  const auto add = [this](const QString& code, const QString& name) {
+    const QString own = QStringLiteral("language-%1").arg(code.isEmpty() ? QStringLiteral("system") : code);
+    QAction* action = make(own.toLatin1().constData(), nullptr, name, {}, false);
+    action->setCheckable(true);
+    action->setData(code);
+    action->setChecked(code == settings::language().get());
+    languages->addAction(action);
+  };
+  add({}, tr("As the &system"));
+  for (const Language& language : ui::languages())
+    add(QString::fromLatin1(language.code), QString::fromUtf8(language.name));
+  languages->setEnabled(!is_locked(settings::language().name()));
 }
 
 void Actions::make_windows() {

@@ -74,6 +74,7 @@ class Actions : public QObject {
   QAction* hide_interface;
   QAction* full_screen;
   QActionGroup* themes;
+  QActionGroup* languages;  // their data: the code, as in the settings
   // Window.
   QAction* tile;
   QAction* cascade;
@@ -101,6 +102,7 @@ class Actions : public QObject {
   void make_tools();
   void make_mouse();
   void make_views();
+  void make_languages();
   void make_windows();
   void follow_evolution(const engine::CaseState& state);
 

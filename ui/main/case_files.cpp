@@ -8,6 +8,7 @@
 
 #include "core/without_exceptions.h"
 #include "engine/background_job.h"
+#include "engine/message_text.h"
 #include "ui/main/main_window.h"
 #include "ui/results/file_name.h"
 #include "ui/settings.h"
@@ -81,7 +82,7 @@ void CaseFiles::run(const QString& about, const QString& file, Work work, std::f
       engine::BackgroundJob::start(this, [this, about, file, work = std::move(work), done](auto& job) {
         const Status status = without_exceptions(work);
         job.deliver([this, about, file, status, done] {
-          if (!status) return window_.tell(QString::fromStdString(status.error().message), about);
+          if (!status) return window_.tell(engine::message_text(status.error()), about);
           window_.settle(about);
           window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
           if (done) done();

@@ -98,6 +98,33 @@ QString text_of(ViewKind kind) {
 
 CaseWindow::CaseWindow(std::unique_ptr<engine::CaseProxy> proxy, Actions& actions, QWidget* parent)
     : QMainWindow(parent), proxy_(std::move(proxy)), actions_(actions) {
+  proxy_->display().set(first_settings(*proxy_));
+  make_contents();
+  arrange(proxy_->volume().geometry.size.z == 1 ? ViewLayout::single : settings::layout().get());
+}
+
+CaseWindow::CaseWindow(KeptCase kept, Actions& actions, QWidget* parent)
+    : QMainWindow(parent),
+      session_file(std::move(kept.session_file)),
+      proxy_(std::move(kept.proxy)),
+      actions_(actions),
+      number_(kept.number) {
+  make_contents();
+  restore_arrangement(kept.views);
+  if (proxy_->state().modified) autosave_->save_soon();
+}
+
+KeptCase CaseWindow::keep() {
+  KeptCase kept{nullptr, arrangement(), session_file, number_, linked_};
+  autosave_.reset();
+  proxy_->disconnect(this);
+  proxy_->display().disconnect(this);
+  proxy_->forget_askers();
+  kept.proxy = std::move(proxy_);
+  return kept;
+}
+
+void CaseWindow::make_contents() {
   setWindowFlags(Qt::Widget);
   setDockNestingEnabled(true);
   setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks | QMainWindow::AllowTabbedDocks);
@@ -106,7 +133,6 @@ CaseWindow::CaseWindow(std::unique_ptr<engine::CaseProxy> proxy, Actions& action
        {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::TopDockWidgetArea}) {
     setTabPosition(area, QTabWidget::North);
   }
-  proxy_->display().set(first_settings(*proxy_));
   auto* head = new CaseHead;
   setMenuWidget(head);
   head->set_case(this);
@@ -115,7 +141,6 @@ CaseWindow::CaseWindow(std::unique_ptr<engine::CaseProxy> proxy, Actions& action
   follow_state();
   autosave_ = std::make_unique<engine::CaseAutosave>(*proxy_, engine::recovery_folder(),
                                                      [this] { return view_state(); });
-  arrange(proxy_->volume().geometry.size.z == 1 ? ViewLayout::single : settings::layout().get());
 }
 
 CaseWindow::~CaseWindow() {

@@ -21,13 +21,27 @@ enum class ViewLayout { single, one_three, two_two, paper };
 
 QString text_of(ViewKind kind);
 
+// A case without its window, which another one may take over: see CaseWindow::keep().
+struct KeptCase {
+  std::unique_ptr<engine::CaseProxy> proxy;
+  QByteArray views;  // their arrangement
+  QString session_file;
+  int number = 1;
+  bool linked = false;
+};
+
 // Child of the MDI area. Views float, tab, close and come back; their arrangement is remembered from one case
 // to the next.
 class CaseWindow : public QMainWindow {
   Q_OBJECT
  public:
   CaseWindow(std::unique_ptr<engine::CaseProxy> proxy, Actions& actions, QWidget* parent = nullptr);
+  // Shows the case as it was shown before. Links are the receiver's to make.
+  CaseWindow(KeptCase kept, Actions& actions, QWidget* parent = nullptr);
   ~CaseWindow() override;
+
+  // Gives the case away. Nothing but deleting this window may follow, and the case must outlive it.
+  [[nodiscard]] KeptCase keep();
 
   [[nodiscard]] engine::CaseProxy& proxy() { return *proxy_; }
 
@@ -80,6 +94,7 @@ class CaseWindow : public QMainWindow {
   void changeEvent(QEvent* event) override;
 
  private:
+  void make_contents();
   void arrange(ViewLayout layout);
   PictureView* make_view(ViewKind kind);
   QDockWidget* make_dock(ViewKind kind) { return make_dock(kind, ++docks_made_); }

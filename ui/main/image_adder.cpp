@@ -4,6 +4,7 @@
 #include <QStatusBar>
 
 #include "engine/background_job.h"
+#include "engine/message_text.h"
 #include "imaging/onto_grid.h"
 #include "imaging/resample.h"
 #include "ui/main/main_window.h"
@@ -96,9 +97,7 @@ void ImageAdder::add_file(CaseWindow& into, const QString& path) {
 void ImageAdder::look_at(const std::shared_ptr<const engine::LoadedStudy>& loaded) {
   if (!into_) return;
   if (job_) job_->abandon();
-  const auto failed = [this](const Error& error) {
-    window_.tell(QString::fromStdString(error.message), kAboutImages);
-  };
+  const auto failed = [this](const Error& error) { window_.tell(engine::message_text(error), kAboutImages); };
   job_ = engine::BackgroundJob::start(
       this,
       [this, loaded, into = into_, grid = into_->proxy().volume().geometry](engine::BackgroundJob& job) {

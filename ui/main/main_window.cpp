@@ -17,6 +17,8 @@
 #include <QVBoxLayout>
 
 #include "engine/case_balance.h"
+#include "engine/job_runner.h"
+#include "engine/message_text.h"
 #include "ui/look/about_dialog.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -215,17 +217,58 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const engine::LoadedStudy
   });
   settle(kAboutOpening);
   window->set_number(free_number());
-  new CaseMessages(*window, *messages_);  // its children
-  new LeakMessage(*window, *messages_);
-  connect(window, &CaseWindow::close_wanted, session_writer_, &SessionWriter::close);
-  connect(window, &CaseWindow::place_panel_wanted, this, [this] { panels_->show("initialise"); });
-  QMdiSubWindow* child = area_->add(window);
   // The event loop runs between making a case and showing it.
-  const auto show = [this, child = QPointer(child), study, restored] {
+  const auto show = [this, child = QPointer(place(window)), study, restored] {
     if (child) show_case(*child, *study, restored);
   };
   QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
   return window;
+}
+
+QMdiSubWindow* MainWindow::place(CaseWindow* window) {
+  new CaseMessages(*window, *messages_);  // its children
+  new LeakMessage(*window, *messages_);
+  connect(window, &CaseWindow::close_wanted, session_writer_, &SessionWriter::close);
+  connect(window, &CaseWindow::place_panel_wanted, this, [this] { panels_->show("initialise"); });
+  return area_->add(window);
+}
+
+MainWindow::Kept MainWindow::keep() {
+  keep_arrangement();
+  Kept kept;
+  kept.tabs = actions_->tabs->isChecked();
+  kept.lock_step = actions_->lock_step->isChecked();
+  kept.lesson = teaching_->keep();
+  panels_->set_case(nullptr);
+  status_bar_->set_proxy(nullptr);
+  const CaseWindow* active = std::exchange(active_, nullptr);
+  follow_case();
+  for (CaseWindow* window : cases()) {
+    if (window == active) kept.active = static_cast<qsizetype>(kept.cases.size());
+    kept.cases.push_back(window->keep());
+  }
+  return kept;
+}
+
+void MainWindow::take_over(Kept kept) {
+  QList<CaseWindow*> taken;
+  QList<CaseWindow*> linked;
+  actions_->tabs->setChecked(kept.tabs);
+  for (KeptCase& one : kept.cases) {
+    const bool is_linked = one.linked;
+    auto* window = new CaseWindow(std::move(one), *actions_);
+    taken << window;
+    if (is_linked) linked << window;
+    area_->show_child(*place(window));
+  }
+  links_->link(linked);
+  {
+    const QSignalBlocker as_they_play(actions_->lock_step);
+    actions_->lock_step->setChecked(kept.lock_step);
+  }
+  if (!taken.isEmpty()) centre_->setCurrentWidget(area_);
+  if (kept.active >= 0) bring_to_front(*taken[kept.active]);
+  if (kept.lesson) teaching_->take_over(std::move(kept.lesson));
 }
 
 void MainWindow::show_case(QMdiSubWindow& child, const engine::LoadedStudy& study,
@@ -236,7 +279,7 @@ void MainWindow::show_case(QMdiSubWindow& child, const engine::LoadedStudy& stud
   if (restored.contents) {
     panels_->show("level-set");  // it has begun: to be steered
     const Status shown = window.restore_view(*restored.contents);
-    if (!shown) tell(tr("How it was shown is lost: %1").arg(QString::fromStdString(shown.error().message)));
+    if (!shown) tell(tr("How it was shown is lost: %1").arg(engine::message_text(shown.error())));
   }
   const auto results = opener_->results_beside(study);
   if (study.volume->changes.empty() && results.empty()) return;
@@ -366,6 +409,20 @@ void MainWindow::connect_views() {
   });
   const int theme = static_cast<int>(settings::theme().get());
   for (QAction* action : actions_->themes->actions()) action->setChecked(action->data().toInt() == theme);
+  connect(actions_->languages, &QActionGroup::triggered, this, &MainWindow::change_language);
+}
+
+// Work that is on its way would end with the window.
+void MainWindow::change_language(QAction* chosen) {
+  const auto runners = findChildren<engine::JobRunner*>();
+  const bool busy = std::any_of(runners.begin(), runners.end(), [](const auto* one) { return one->busy(); });
+  if (!busy && teaching_->editor_may_close()) {
+    settings::language().set(chosen->data().toString());
+    return emit language_changed();
+  }
+  for (QAction* action : actions_->languages->actions())
+    action->setChecked(action->data().toString() == settings::language().get());
+  if (busy) tell(tr("The language can be changed once what is being read or written is done."));
 }
 
 void MainWindow::connect_windows() {
@@ -408,9 +465,13 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     quitting_ = session_writer_->closes_later();
     return event->ignore();
   }
+  keep_arrangement();
+  event->accept();
+}
+
+void MainWindow::keep_arrangement() const {
   settings::window_state().set(panels_->arrangement());
   settings::window_geometry().set(saveGeometry());
-  event->accept();
 }
 
 bool MainWindow::event(QEvent* event) {

@@ -3,6 +3,7 @@
 
 #include <QMainWindow>
 #include <memory>
+#include <vector>
 
 #include "engine/engine.h"
 #include "ui/main/actions.h"
@@ -33,6 +34,7 @@ class SessionWriter;
 class StatusBar;
 class StudyOpener;
 class Teaching;
+struct KeptLesson;
 struct RecentStudy;
 
 class MainWindow : public QMainWindow {
@@ -46,6 +48,18 @@ class MainWindow : public QMainWindow {
   void open_phantom(const QString& kind);
   CaseWindow* add_case(const std::shared_ptr<const engine::LoadedStudy>& study,
                        const engine::RestoredCase& restored = {});
+
+  // What another main window needs to go on with the same cases, and with the lesson that is being done.
+  // Nothing but deleting this one may follow, and the cases must outlive it.
+  struct Kept {
+    std::vector<KeptCase> cases;
+    qsizetype active = -1;
+    bool tabs = false;
+    bool lock_step = false;
+    std::unique_ptr<KeptLesson> lesson;
+  };
+  [[nodiscard]] Kept keep();
+  void take_over(Kept kept);
 
   [[nodiscard]] CaseWindow* active_case() const;  // null: none
   void bring_to_front(CaseWindow& window);
@@ -66,6 +80,10 @@ class MainWindow : public QMainWindow {
   void tell(const QString& message, const QString& about = {});
   void settle(const QString& about);
 
+ signals:
+  // The settings name another language.
+  void language_changed();
+
  protected:
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -82,14 +100,17 @@ class MainWindow : public QMainWindow {
   void connect_evolution();
   void connect_views();
   void connect_windows();
+  void change_language(QAction* chosen);
   void connect_help();
   void ask_for_folder();
   void ask_for_file();
   void open_recent(const RecentStudy& study);
+  QMdiSubWindow* place(CaseWindow* window);
   void show_case(QMdiSubWindow& child, const engine::LoadedStudy& study,
                  const engine::RestoredCase& restored);
   [[nodiscard]] int free_number() const;
   void activate(QMdiSubWindow* window);
+  void keep_arrangement() const;
   void follow_case();
   void follow_closing();
   void remember(CaseWindow& window);

@@ -58,6 +58,11 @@ void make_view_menu(MainWindow& window, Actions& actions, PanelDocks& panels) {
   view->addActions({actions.hide_interface, actions.full_screen});
   QMenu* theme = view->addMenu(MainWindow::tr("The&me"));
   theme->addActions(actions.themes->actions());
+  // Its English name beside the present one: whoever cannot read the language still finds it.
+  const QString languages = MainWindow::tr("Langua&ge");
+  const bool is_english = languages == QLatin1String("Langua&ge");
+  view->addMenu(is_english ? languages : QStringLiteral("%1 (Language)").arg(languages))
+      ->addActions(actions.languages->actions());
 }
 
 }  // namespace

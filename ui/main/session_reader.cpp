@@ -10,6 +10,7 @@
 #include "document/session_images.h"
 #include "engine/background_job.h"
 #include "engine/case_autosave.h"
+#include "engine/message_text.h"
 #include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
 #include "ui/main/message_bar.h"
@@ -78,8 +79,9 @@ void SessionReader::read_next() {
     auto contents = without_exceptions([&] { return document::load_session(path); });
     if (!contents) {
       auto copies = is_copy ? std::vector<document::Recoverable>() : find_copies();
-      job.deliver([this, message = QString::fromStdString(contents.error().message),
-                   copies = std::move(copies)] { refuse(message, copies); });
+      job.deliver([this, message = engine::message_text(contents.error()), copies = std::move(copies)] {
+        refuse(message, copies);
+      });
       return;
     }
     job.deliver([this, contents = std::make_shared<const document::SessionContents>(std::move(*contents))] {
@@ -121,7 +123,7 @@ void SessionReader::compare(const std::shared_ptr<const engine::LoadedStudy>& st
         const auto found = without_exceptions(
             [&]() -> Result<document::VolumeMatch> { return document::match(*contents, *study->volume); });
         job.deliver([this, study, found] {
-          if (!found) return end_reading(QString::fromStdString(found.error().message));
+          if (!found) return end_reading(engine::message_text(found.error()));
           judge(study, *found);
         });
       }));
@@ -153,10 +155,10 @@ void SessionReader::find_images(const std::shared_ptr<const engine::LoadedStudy>
         auto with_images = std::make_shared<document::SessionContents>(*contents);
         QStringList problems;
         for (const std::string& problem : document::find_images(*with_images, {nullptr, job.stop()}))
-          problems << QString::fromStdString(problem);
+          problems << engine::message_text(problem);
         job.deliver([this, study, with_images, problems] { restore(study, with_images, problems); });
       },
-      [this](const Error& error) { end_reading(QString::fromStdString(error.message)); }));
+      [this](const Error& error) { end_reading(engine::message_text(error)); }));
 }
 
 void SessionReader::restore(const std::shared_ptr<const engine::LoadedStudy>& study,

@@ -3,6 +3,7 @@
 #include <QLabel>
 #include <QToolButton>
 
+#include "engine/message_text.h"
 #include "ui/main/value_bar.h"
 #include "ui/opening/loading_view.h"
 #include "ui/settings.h"
@@ -44,11 +45,11 @@ void StatusBar::note_renderer(const engine::Engine& engine) {
   note->setObjectName(QStringLiteral("renderer note"));
   QStringList text(drawn_by_host ? tr("The processor draws the pictures: %1.")
                                  : tr("OpenGL draws the pictures, but the processor plays the GPU: %1."));
-  text.front() = text.front().arg(QString::fromStdString(engine.renderer_reason()));
+  text.front() = text.front().arg(engine::message_text(engine.renderer_reason()));
   if (engine.graphics() == engine::Engine::Graphics::none) {
-    text << tr("OpenGL: %1.").arg(QString::fromStdString(engine.graphics_problem()));
+    text << tr("OpenGL: %1.").arg(engine::message_text(engine.graphics_problem()));
   }
-  if (!engine.renderer_problem().empty()) text << QString::fromStdString(engine.renderer_problem()) + '.';
+  if (!engine.renderer_problem().empty()) text << engine::message_text(engine.renderer_problem()) + '.';
   if (!has_gpu) text << tr("The automatic executor is the host's, the processor, too.");
   note->setToolTip(text.join(QChar(' ')));
   addPermanentWidget(note);

@@ -12,6 +12,7 @@
 #include "engine/case_proxy.h"
 #include "engine/lesson_autosave.h"
 #include "engine/lesson_course.h"
+#include "engine/message_text.h"
 #include "ui/lessons/lesson_editor.h"
 #include "ui/lessons/lesson_panel.h"
 #include "ui/look/polish_again.h"
@@ -35,6 +36,8 @@ bool wants(const document::LessonTry& attempt, document::LessonView view) {
 }  // namespace
 
 Teaching::Teaching(MainWindow& window) : QObject(&window), window_(window), normal_(QApplication::font()) {}
+
+KeptLesson::~KeptLesson() = default;
 
 Teaching::~Teaching() = default;
 
@@ -81,7 +84,7 @@ void Teaching::ask_and_open() {
 void Teaching::open(const QString& file) {
   const auto path = path_of(file);
   auto lesson = document::Lesson::load(path);
-  if (!lesson) return window_.tell(QString::fromStdString(lesson.error().message), kAboutLessons);
+  if (!lesson) return window_.tell(engine::message_text(lesson.error()), kAboutLessons);
   window_.settle(kAboutLessons);
   begin(std::move(*lesson), path);
 }
@@ -99,10 +102,15 @@ void Teaching::go_on(const document::RescuedLesson& rescued) {
 
 void Teaching::show(document::Lesson lesson, const std::filesystem::path& file,
                     const document::LessonProgress* progress) {
+  auto course = std::make_unique<engine::LessonCourse>(std::move(lesson), file.parent_path());
+  if (progress) course->go_on_from(*progress);
+  show(std::move(course), file);
+}
+
+void Teaching::show(std::unique_ptr<engine::LessonCourse> course, const std::filesystem::path& file) {
   end();
   file_ = file;
-  course_ = std::make_unique<engine::LessonCourse>(std::move(lesson), file.parent_path());
-  if (progress) course_->go_on_from(*progress);
+  course_ = std::move(course);
   autosave_ = std::make_unique<engine::LessonAutosave>(*course_, file, engine::recovery_folder());
   connect(autosave_.get(), &engine::LessonAutosave::failed, this,
           [this](const QString& message) { window_.tell(message, kAboutLessons); });
@@ -216,7 +224,31 @@ bool Teaching::may_close() {
                                 .arg(QString::fromStdString(course_->lesson().title))) != QMessageBox::Yes) {
     return false;
   }
+  return editor_may_close();
+}
+
+bool Teaching::editor_may_close() {
   return !editor_ || !editor_->isVisible() || editor_->close();
+}
+
+std::unique_ptr<KeptLesson> Teaching::keep() {
+  if (!course_) return nullptr;
+  const bool shown = dock_->isVisible();
+  auto kept = std::make_unique<KeptLesson>();
+  kept->course = std::move(course_);
+  kept->file = file_;
+  kept->shown = shown;
+  kept->course->disconnect(this);
+  delete dock_->widget();  // it speaks to the course
+  head_ = nullptr;
+  autosave_.reset();
+  return kept;
+}
+
+void Teaching::take_over(std::unique_ptr<KeptLesson> kept) {
+  show(std::move(kept->course), kept->file);
+  dock_->setVisible(kept->shown);
+  name_case();
 }
 
 void Teaching::set_large(bool large) {

@@ -28,6 +28,15 @@ class CaseWindow;
 class LessonEditor;
 class MainWindow;
 
+// A lesson without its panel, which another main window may take over.
+struct KeptLesson {
+  std::unique_ptr<engine::LessonCourse> course;
+  std::filesystem::path file;
+  bool shown = true;
+
+  ~KeptLesson();
+};
+
 // One lesson at a time.
 class Teaching : public QObject {
   Q_OBJECT
@@ -45,11 +54,16 @@ class Teaching : public QObject {
   // Whether the program may end: asks about answers that were not handed in, and about a lesson that was
   // written and not saved.
   [[nodiscard]] bool may_close();
+  [[nodiscard]] bool editor_may_close();
+  // The lesson that is being done, if there is one, to be taken over by another main window.
+  [[nodiscard]] std::unique_ptr<KeptLesson> keep();
+  void take_over(std::unique_ptr<KeptLesson> kept);
 
  private:
   void ask_and_open();
   void show(document::Lesson lesson, const std::filesystem::path& file,
             const document::LessonProgress* progress);
+  void show(std::unique_ptr<engine::LessonCourse> course, const std::filesystem::path& file);
   void end();
   void open_case(const std::shared_ptr<const engine::LoadedStudy>& study);
   void show_case(engine::CaseProxy& proxy, const document::LessonTry& attempt);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/background_job.h"
+#include "engine/message_text.h"
 #include "imaging/results/segments.h"
 #include "ui/main/ask_for_labels.h"
 #include "ui/main/main_window.h"
@@ -132,7 +133,7 @@ void TruthReader::compare(const QString& name, std::function<Mask()> make) {
         if (truth->count() == 0) truth = nullptr;
         job.deliver([this, truth, name] { take(truth, name); });
       },
-      [this](const Error& error) { end(QString::fromStdString(error.message)); });
+      [this](const Error& error) { end(engine::message_text(error)); });
 }
 
 void TruthReader::take(const std::shared_ptr<const Mask>& truth, const QString& name) {

@@ -7,6 +7,7 @@
 #include <QScrollArea>
 #include <algorithm>
 
+#include "engine/message_text.h"
 #include "imaging/results/results.h"
 #include "ui/look/theme.h"
 #include "ui/opening/grid_text.h"
@@ -37,7 +38,7 @@ QString summary(const Volume& volume) {
   const auto& changes = volume.changes;
   const QString grid = grid_text(volume.geometry);
   if (changes.empty()) return grid;
-  const QString first = QString::fromStdString(changes.front());
+  const QString first = engine::message_text(changes.front());
   if (changes.size() == 1) return LoadReport::tr("%1; %2").arg(grid, first);
   return LoadReport::tr("%1; %2 changes: %3, …").arg(grid).arg(changes.size()).arg(first);
 }
@@ -127,7 +128,7 @@ QWidget* LoadReport::make_details(const std::vector<std::string>& changes,
                                   const std::vector<engine::FoundResult>& results) {
   QString text;
   for (const std::string& change : changes) {
-    text += QStringLiteral("<li>%1</li>").arg(QString::fromStdString(change).toHtmlEscaped());
+    text += QStringLiteral("<li>%1</li>").arg(engine::message_text(change).toHtmlEscaped());
   }
   text = changes.empty() ? tr("Nothing was changed or missing.")
                          : tr("Found and changed when it was read:") + html_list(text);

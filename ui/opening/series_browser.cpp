@@ -7,6 +7,7 @@
 #include <QStyledItemDelegate>
 #include <algorithm>
 
+#include "engine/message_text.h"
 #include "engine/study_loader.h"
 #include "ui/opening/series_model.h"
 
@@ -35,7 +36,7 @@ QString item_list(const QString& title, const std::vector<std::string>& items) {
   QString html = QStringLiteral("<p style='margin:0 0 2px 0'><b>%1</b></p>").arg(title.toHtmlEscaped());
   html += QStringLiteral("<ul style='margin:0 0 6px -20px'>");
   for (const std::string& item : items) {
-    html += QStringLiteral("<li>%1</li>").arg(QString::fromStdString(item).toHtmlEscaped());
+    html += QStringLiteral("<li>%1</li>").arg(engine::message_text(item).toHtmlEscaped());
   }
   return html + QStringLiteral("</ul>");
 }
@@ -53,7 +54,8 @@ QString skipped_list(const std::vector<imaging::SkippedFile>& skipped) {
       lines.push_back(QStringLiteral("…"));
       break;
     }
-    lines.push_back(QString::fromStdString(one.file.filename().string() + ": " + one.reason));
+    lines.push_back(QStringLiteral("%1: %2").arg(QString::fromStdString(one.file.filename().string()),
+                                                 engine::message_text(one.reason)));
   }
   return lines.join(QLatin1Char('\n'));
 }

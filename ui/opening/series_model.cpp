@@ -10,6 +10,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/message_text.h"
 #include "engine/study_loader.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/grid_text.h"
@@ -161,7 +162,7 @@ QVariant SeriesModel::data(const QModelIndex& index, int role) const {
       if (one.loadable || one.fillable() || index.column() == kNotes) return {};
       return QApplication::palette().brush(QPalette::Disabled, QPalette::Text);
     case Qt::ToolTipRole:
-      return one.loadable ? QVariant() : QVariant(QString::fromStdString(one.reason));
+      return one.loadable ? QVariant() : QVariant(engine::message_text(one.reason));
     case Qt::TextAlignmentRole:
       return kAlignment;
     default:

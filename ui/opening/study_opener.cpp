@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/message_text.h"
 #include "ui/opening/phantom_menu.h"
 
 namespace tidemark::ui {
@@ -142,7 +143,7 @@ void StudyOpener::load_by_uid(const imaging::Catalogue& catalogue) {
   if (const imaging::Series* gappy = imaging::find_fillable(catalogue, uid)) return ask_for_policy(*gappy);
   const auto chosen = imaging::choose_series(catalogue, uid, path_.toStdString());
   if (chosen) return load(chosen->series, chosen->remarks);
-  problems_ << QString::fromStdString(chosen.error().message);
+  problems_ << engine::message_text(chosen.error());
   next();
 }
 
@@ -155,7 +156,7 @@ void StudyOpener::load_as_wanted(const imaging::Series& series) {
 void StudyOpener::ask_for_policy(const imaging::Series& series) {
   const bool fills = series.fillable();
   question_ = new QMessageBox(QMessageBox::Question, fills ? tr("Irregular slices") : tr("Tilted slices"),
-                              QString::fromStdString(fills ? series.grid.question : series.grid.tilt),
+                              engine::message_text(fills ? series.grid.question : series.grid.tilt),
                               QMessageBox::Cancel, window_);
   question_->setAttribute(Qt::WA_DeleteOnClose);
   question_->setTextFormat(Qt::PlainText);

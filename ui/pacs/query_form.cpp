@@ -17,7 +17,7 @@ QueryForm::QueryForm(QWidget* parent) : QWidget(parent), modality_(new QComboBox
   id_ = line(tr("Patient's &ID"), {}, tr("The patient's number; * stands for any"), 0, 1);
   description_ = line(tr("&Description"), {}, tr("Of the study; * stands for any letters"), 0, 2);
   from_ = line(tr("&From"), tr("2026-01-31"), tr("Studies of that day and later"), 1, 0);
-  to_ = line(tr("&To"), tr("2026-12-31"), tr("Studies of that day and earlier"), 1, 1);
+  to_ = line(tr("&Until"), tr("2026-12-31"), tr("Studies of that day and earlier"), 1, 1);
   modality_->setEditable(true);
   modality_->addItems({QString(), "CT", "MR", "PT", "SEG", "RTSTRUCT"});
   modality_->setAccessibleName(tr("Modality"));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/message_text.h"
 #include "ui/look/icons.h"
 #include "ui/pacs/servers_dialog.h"
 #include "ui/settings.h"
@@ -37,11 +38,12 @@ ServerChoice::ServerChoice(std::filesystem::path file, const QString& tip, QWidg
 
 void ServerChoice::read() {
   const QString before = server_->currentText();
-  auto found = imaging::read_pacs_configuration(file_);
+  const auto file = imaging::pacs_configuration_to_read(file_);
+  auto found = imaging::read_pacs_configuration(file);
   std::error_code error;
   // A user who has named no server yet has made no mistake.
-  const bool is_wrong = !found && std::filesystem::exists(file_, error);
-  problem_ = is_wrong ? QString::fromStdString(found.error().message) : QString();
+  const bool is_wrong = !found && std::filesystem::exists(file, error);
+  problem_ = is_wrong ? engine::message_text(found.error()) : QString();
   configuration_ = found ? std::move(*found) : imaging::PacsConfiguration();
   if (!is_wrong && configuration_.servers.empty())
     problem_ = tr("There is no server yet: name one with “Servers…”.");

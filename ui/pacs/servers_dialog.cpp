@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/message_text.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
@@ -51,12 +52,14 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
     say(tr("The server answers in %1 ms.").arg(seconds * 1000.0, 0, 'f', 1));
   });
   connect(&client_, &engine::PacsClient::failed, this, &ServersDialog::say);
-  auto read = imaging::read_pacs_configuration(file_);
+  // What is saved is the user's own.
+  const auto file = imaging::pacs_configuration_to_read(file_);
+  auto read = imaging::read_pacs_configuration(file);
   std::error_code error;
   if (read) {
     configuration_ = std::move(*read);
-  } else if (std::filesystem::exists(file_, error)) {
-    say(QString::fromStdString(read.error().message));
+  } else if (std::filesystem::exists(file, error)) {
+    say(engine::message_text(read.error()));
     // Its content would be lost.
     QPushButton* save = buttons->button(QDialogButtonBox::Save);
     save->setEnabled(false);
@@ -148,7 +151,7 @@ QWidget* ServersDialog::make_tls() {
       tr("Authority"),
       tr("PEM file of the authority behind the server's certificate; empty: the system's authorities"), form);
   certificate_ = file_line(tr("Certificate"), tr("Ours, for servers that want one; may be empty"), form);
-  key_ = file_line(tr("Key"), tr("Of our certificate"), form);
+  key_ = file_line(tr("Private key"), tr("Of our certificate"), form);
   verify_ = form.check(tr("Verify the server's certificate"),
                        tr("Without it the connection is encrypted, but the server may be anyone"));
   return tls_;
@@ -268,10 +271,10 @@ void ServersDialog::accept() {
     if (good && names.insert(server.name).second) continue;
     list_->setCurrentRow(static_cast<int>(row));
     return say(good ? tr("Two servers are called %1.").arg(QString::fromStdString(server.name))
-                    : QString::fromStdString(good.error().message));
+                    : engine::message_text(good.error()));
   }
   if (const Status written = imaging::write_pacs_configuration(configuration_, file_); !written) {
-    return say(QString::fromStdString(written.error().message));
+    return say(engine::message_text(written.error()));
   }
   QDialog::accept();
 }

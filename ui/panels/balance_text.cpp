@@ -79,12 +79,17 @@ QString turn_sentence(const engine::ExplainedPlace& place, const engine::Explain
   QStringList ways;
   if (turn.alpha) ways << above_or_below(tr("α"), *turn.alpha, now.alpha, kAlphaDecimals);
   if (turn.range) ways << above_or_below(tr("ε"), *turn.range, now.range, decimals);
-  const QString effect = outward ? tr("would move it outward") : tr("would move it inward");
-  if (!ways.isEmpty()) {
-    QString text = ways.join(tr(", or ")) + (ways.size() > 1 ? ", " : " ") + effect + ".";
-    return text;
+  if (ways.size() == 2) {
+    return (outward ? tr("%1, or %2, would move it outward.") : tr("%1, or %2, would move it inward."))
+        .arg(ways[0], ways[1]);
   }
-  return place.has_tent ? tr("No α and no ε by itself %1.").arg(effect) : tr("No α %1.").arg(effect);
+  if (ways.size() == 1)
+    return (outward ? tr("%1 would move it outward.") : tr("%1 would move it inward.")).arg(ways[0]);
+  if (place.has_tent) {
+    return outward ? tr("No α and no ε by itself would move it outward.")
+                   : tr("No α and no ε by itself would move it inward.");
+  }
+  return outward ? tr("No α would move it outward.") : tr("No α would move it inward.");
 }
 
 }  // namespace

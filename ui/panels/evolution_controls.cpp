@@ -8,6 +8,7 @@
 #include <QStandardItemModel>
 #include <QToolButton>
 
+#include "engine/message_text.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/disclosure.h"
 #include "ui/widgets/form.h"
@@ -35,7 +36,7 @@ QString obstacle(solver::ExecutorKind kind, const engine::Engine& engine) {
   if (kind == solver::ExecutorKind::automatic || kind == solver::ExecutorKind::host) return {};
   if (engine.graphics() == engine::Engine::Graphics::none) {
     return EvolutionControls::tr("There is no OpenGL: %1")
-        .arg(QString::fromStdString(engine.graphics_problem()));
+        .arg(engine::message_text(engine.graphics_problem()));
   }
   if (kind == solver::ExecutorKind::compute && !engine.capabilities().at_least(4, 5)) {
     return EvolutionControls::tr("Needs OpenGL 4.5; this machine has %1.%2")

@@ -8,6 +8,7 @@
 
 #include "core/without_exceptions.h"
 #include "engine/background_job.h"
+#include "engine/message_text.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/panels/refine_choice.h"
@@ -99,7 +100,7 @@ void FileStartMethod::start(int levels) {
 void FileStartMethod::take(const Result<document::Start>& start, engine::CaseProxy* proxy) {
   reading_.reset();
   if (!start) {
-    emit failed(QString::fromStdString(start.error().message));
+    emit failed(engine::message_text(start.error()));
   } else if (proxy) {
     proxy->begin(*start);
   }

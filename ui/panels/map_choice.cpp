@@ -7,6 +7,7 @@
 
 #include "core/without_exceptions.h"
 #include "document/speed_map.h"
+#include "engine/message_text.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/file_patterns.h"
@@ -81,7 +82,7 @@ void MapChoice::take(const Result<std::shared_ptr<const document::SpeedMap>>& ma
   if (map) {
     emit chosen(*map);
   } else {
-    emit failed(QString::fromStdString(map.error().message));
+    emit failed(engine::message_text(map.error()));
   }
   if (proxy()) refresh();
 }

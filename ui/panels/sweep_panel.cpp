@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "engine/case_sweep.h"
+#include "engine/message_text.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/panels/sweep_axis_choice.h"
@@ -146,7 +147,7 @@ void SweepPanel::start_or_cancel() {
     if (const auto axis = choice->axis()) axes.push_back(*axis);
   }
   if (const Status good = document::check(axes, proxy()->parameters(), proxy()->drive().setting); !good)
-    return say(QString::fromStdString(good.error().message));
+    return say(engine::message_text(good.error()));
   say({});
   progress_->setValue(0);
   sweep()->start(axes);

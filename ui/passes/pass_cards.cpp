@@ -200,7 +200,7 @@ void PassCards::add_message() {
   across_[0] =
       add_row(*card, {face_name(0), face_name(1), face_name(2), face_name(3)}, kBlocks, tr("In slice"));
   across_[1] =
-      add_row(*card, {face_name(4), face_name(5), tr("not in"), tr("not out")}, kBlocks, tr("Across"));
+      add_row(*card, {face_name(4), face_name(5), tr("not in"), tr("not out")}, kBlocks, tr("Across slices"));
   bits_ = new MessageBits;
   code_ = card->add_line();
   card->add(bits_);

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 
 #include "engine/case_passes.h"
+#include "engine/message_text.h"
 #include "ui/look/theme.h"
 #include "ui/passes/pass_cards.h"
 #include "ui/widgets/form.h"
@@ -108,7 +109,7 @@ QString PassesPanel::status() const {
     return tr("The passes are those of the stream executor. This surface is computed by %1.")
         .arg(state.executor);
   }
-  if (!passes.problem().empty()) return QString::fromStdString(passes.problem());
+  if (!passes.problem().empty()) return engine::message_text(passes.problem());
   if (!passes.recorded()) return {};
   return tr("Step %1, read back from the buffers of the passes.")
       .arg(count_text(passes.recorded()->step + 1));

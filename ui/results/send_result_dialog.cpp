@@ -2,6 +2,7 @@
 
 #include <QGridLayout>
 
+#include "engine/message_text.h"
 #include "ui/look/theme.h"
 
 namespace tidemark::ui {
@@ -111,7 +112,7 @@ void SendResultDialog::begin(const Snapshot& snapshot) {
 void SendResultDialog::tell(const imaging::Sent& sent) {
   if (!sent.unsent.empty()) {
     return rest(tr("%1 did not take all of it: %2.")
-                    .arg(receiver_, QString::fromStdString(sent.unsent.front().reason)));
+                    .arg(receiver_, engine::message_text(sent.unsent.front().reason)));
   }
   const bool of_study = !proxy().study().dicom_files.empty();
   rest(sent.objects > 1

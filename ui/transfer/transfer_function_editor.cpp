@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/atomic_file.h"
+#include "engine/message_text.h"
 #include "ui/transfer/histogram_plot.h"
 #include "ui/transfer/joint_histogram_plot.h"
 #include "ui/transfer/panel_scroll.h"
@@ -37,7 +38,7 @@ TransferFunctionEditor::TransferFunctionEditor(QWidget* parent)
   message_->setAccessibleName(tr("Message"));
   message_->hide();
   column->addWidget(message_);
-  tabs_->addTab(make_volume_tab(), tr("Volume"));
+  tabs_->addTab(make_volume_tab(), tr("Volume data"));
   tabs_->addTab(make_surface_tab(), tr("Surface"));
   column->addWidget(tabs_, 1);
   set_display(nullptr, nullptr);
@@ -233,7 +234,7 @@ void TransferFunctionEditor::say(const QString& message) {
 
 void TransferFunctionEditor::load(const std::filesystem::path& file) {
   const auto function = renderer::TransferFunction::load(file);
-  if (!function) return say(QString::fromStdString(function.error().message));
+  if (!function) return say(engine::message_text(function.error()));
   replace(*function);
 }
 
@@ -242,7 +243,7 @@ void TransferFunctionEditor::save(const std::filesystem::path& file) {
   renderer::TransferFunction function = display_->settings().transfer;
   function.name = file.stem().string();
   const Status written = write_file(file, function.to_json());
-  say(written ? QString() : QString::fromStdString(written.error().message));
+  say(written ? QString() : engine::message_text(written.error()));
 }
 
 void TransferFunctionEditor::ask_load() {

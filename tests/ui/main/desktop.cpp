@@ -14,6 +14,7 @@
 
 #include "engine/case_runner.h"
 #include "ui/look/theme.h"
+#include "ui/settings.h"
 
 namespace tidemark::test {
 solver::ExecutorKind story_executor() {
@@ -44,17 +45,24 @@ Desktop::Desktop(solver::ExecutorKind executor, QSize size, bool use_opengl) {
   const bool dark = qgetenv("TIDEMARK_STORY_THEME") == "dark";
   ui::apply_theme(*qApp, dark ? ui::Theme::dark : ui::Theme::light);
   engine_ = std::make_unique<engine::Engine>(use_opengl);
-  window_ = std::make_unique<ui::MainWindow>(*engine_);
-  window_->set_executor(executor);
-  window_->resize(size);
-  window_->show();
-  if (!QTest::qWaitForWindowExposed(window_.get())) qFatal("the window did not appear");
+  const QString language = qEnvironmentVariable("TIDEMARK_STORY_LANGUAGE");
+  if (language.isEmpty()) {
+    window_ = std::make_unique<ui::MainWindow>(*engine_);
+  } else {
+    ui::settings::language().set(language);
+    languages_ = std::make_unique<ui::LanguageSwitch>(*engine_);
+  }
+  window().set_executor(executor);
+  window().resize(size);
+  window().show();
+  if (!QTest::qWaitForWindowExposed(&window())) qFatal("the window did not appear");
   WatchedApplication::instance().restart();
   WatchedApplication::instance().take_held();  // the window's own beginning
 }
 
 Desktop::~Desktop() {
   window_.reset();
+  languages_.reset();
   engine_.reset();
   WatchedApplication& watched = WatchedApplication::instance();
   qInfo("the longest event took %s", qPrintable(watched.longest()));
@@ -64,23 +72,23 @@ Desktop::~Desktop() {
 }
 
 ui::CaseWindow* Desktop::open_phantom(const QString& kind) {
-  const qsizetype before = window_->cases().size();
-  in_an_event([&] { window_->open_phantom(kind); });
+  const qsizetype before = window().cases().size();
+  in_an_event([&] { window().open_phantom(kind); });
   return opened(before);
 }
 
 ui::CaseWindow* Desktop::open(const QString& path) {
-  const qsizetype before = window_->cases().size();
-  in_an_event([&] { window_->open(path); });
+  const qsizetype before = window().cases().size();
+  in_an_event([&] { window().open(path); });
   return opened(before);
 }
 
 ui::CaseWindow* Desktop::opened(qsizetype before) {
   wait_for(
-      [&] { return window_->cases().size() > before && window_->active_case() == window_->cases().back(); },
+      [&] { return window().cases().size() > before && window().active_case() == window().cases().back(); },
       60000);
   wait_until_idle();
-  return window_->active_case();
+  return window().active_case();
 }
 
 void Desktop::in_an_event(const std::function<void()>& something) {
@@ -149,7 +157,7 @@ void Desktop::mouse(ui::PictureView& view, QEvent::Type type, glm::dvec3 patient
 }
 
 QAction* Desktop::menu_entry(const QString& menu, const QString& text) {
-  for (QAction* title : window_->menuBar()->actions()) {
+  for (QAction* title : window().menuBar()->actions()) {
     if (title->text().remove('&') != menu) continue;
     for (QAction* action : title->menu()->actions()) {
       if (action->text().remove('&').startsWith(text)) return action;
@@ -159,12 +167,23 @@ QAction* Desktop::menu_entry(const QString& menu, const QString& text) {
 }
 
 void Desktop::choose(const QString& menu, QAction* wanted) {
-  QMenuBar* bar = window_->menuBar();
+  QMenuBar* bar = window().menuBar();
   for (QAction* title : bar->actions()) {
     if (title->text().remove('&') != menu) continue;
     QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(title).center());
-    QVERIFY(wait_for([&] { return title->menu()->isVisible(); }));
-    QTest::mouseClick(title->menu(), Qt::LeftButton, {}, title->menu()->actionGeometry(wanted).center());
+    QMenu* opened = title->menu();
+    QVERIFY(wait_for([&] { return opened->isVisible(); }));
+    while (!opened->actions().contains(wanted)) {
+      QAction* next = nullptr;
+      for (QAction* entry : opened->actions()) {
+        if (entry->menu() && entry->menu()->actions().contains(wanted)) next = entry;
+      }
+      QVERIFY2(next, qPrintable(wanted->text()));
+      QTest::mouseClick(opened, Qt::LeftButton, {}, opened->actionGeometry(next).center());
+      opened = next->menu();
+      QVERIFY(wait_for([&] { return opened->isVisible(); }));
+    }
+    QTest::mouseClick(opened, Qt::LeftButton, {}, opened->actionGeometry(wanted).center());
     return;
   }
   QFAIL("there is no such menu");
@@ -183,9 +202,9 @@ void Desktop::answer(QMessageBox::StandardButton button) {
 
 void Desktop::press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
   // Keys go to the window that is active, which it is not at once after a dialog.
-  window_->activateWindow();
-  if (!QTest::qWaitForWindowActive(window_.get())) qFatal("the window cannot be made active");
-  QTest::keyClick(window_.get(), key, modifiers);
+  window().activateWindow();
+  if (!QTest::qWaitForWindowActive(&window())) qFatal("the window cannot be made active");
+  QTest::keyClick(&window(), key, modifiers);
 }
 
 glm::dvec3 Desktop::seed_mm() {
@@ -234,11 +253,11 @@ void Desktop::screenshot(const QString& name) {
 void Desktop::screenshot_at_once(const QString& name) {
   const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS");
   if (folder.isEmpty()) return;
-  QPixmap picture = window_->grab();
+  QPixmap picture = window().grab();
   for (QWidget* over : {QApplication::activeModalWidget(), QApplication::activePopupWidget()}) {
     if (!over) continue;
     QPainter painter(&picture);
-    const QRect frame = over->geometry().translated(-window_->pos());
+    const QRect frame = over->geometry().translated(-window().pos());
     painter.drawPixmap(frame.topLeft(), over->grab());
     painter.drawRect(frame);  // there may be no window manager to draw one
   }

@@ -14,6 +14,7 @@
 #include "engine/engine.h"
 #include "tests/support/support.h"
 #include "tests/ui/main/watched_application.h"
+#include "ui/main/language_switch.h"
 #include "ui/main/main_window.h"
 #include "ui/views/picture_view.h"
 #include "ui/views/slice_view.h"
@@ -35,14 +36,14 @@ struct PhiTraffic {
 };
 
 // Settings, recovery and everything else of this program goes into a folder of its own that is gone after it.
-// TIDEMARK_STORY_THEME=dark shows all in the dark theme. At the end the test fails if an event held the user
+// TIDEMARK_STORY_THEME=dark shows all in the dark theme, TIDEMARK_STORY_LANGUAGE=de speaks German. At the end the test fails if an event held the user
 // interface since the window was there: see WatchedApplication.
 class Desktop {
  public:
   explicit Desktop(solver::ExecutorKind executor, QSize size = {1280, 800}, bool use_opengl = true);
   ~Desktop();
 
-  [[nodiscard]] ui::MainWindow& window() { return *window_; }
+  [[nodiscard]] ui::MainWindow& window() { return languages_ ? languages_->window() : *window_; }
   [[nodiscard]] engine::Engine& engine() { return *engine_; }
   [[nodiscard]] engine::CaseProxy& proxy() { return window_->active_case()->proxy(); }
   [[nodiscard]] const engine::CaseState& state() { return proxy().state(); }
@@ -99,6 +100,7 @@ class Desktop {
   TemporaryFolder home_;
   std::unique_ptr<engine::Engine> engine_;
   std::unique_ptr<ui::MainWindow> window_;
+  std::unique_ptr<ui::LanguageSwitch> languages_;  // has the window where a language is named
 };
 
 // A widget that is seen, by its accessible name, or a button by its text. Null: there is none.

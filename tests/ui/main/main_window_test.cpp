@@ -11,6 +11,7 @@
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "tests/ui/main/window_checks.h"
 #include "ui/main/case_exports.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
@@ -275,26 +276,7 @@ void MainWindowTest::no_menu_has_a_letter_twice() {
   Desktop desktop(solver::ExecutorKind::host);
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(8.0);
-  QStringList doubles;
-  int menus = 0;
-  const std::function<void(const QString&, const QWidget&)> look = [&](const QString& name,
-                                                                       const QWidget& menu) {
-    ++menus;
-    QMap<QChar, QString> taken;
-    for (QAction* action : menu.actions()) {
-      const QString text = action->text();
-      if (action->menu()) look(text, *action->menu());
-      static const QRegularExpression kLetter("(?<!&)&([^&\\s])");
-      const auto match = kLetter.match(text);
-      if (!match.hasMatch()) continue;
-      const QChar letter = match.captured(1).front().toLower();
-      if (taken.contains(letter)) doubles << name + ": " + taken[letter] + ", " + text;
-      taken[letter] = text;
-    }
-  };
-  look("menu bar", *desktop.window().menuBar());
-  QVERIFY(menus > 10);
-  QCOMPARE(doubles.join("; "), QString());
+  QCOMPARE(doubled_menu_letters(desktop.window()), QStringList());
 }
 
 void MainWindowTest::numbers_are_typed_with_either_separator_in_any_language() {

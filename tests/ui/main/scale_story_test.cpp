@@ -1,20 +1,15 @@
 // Screens of other scales: pictures have the screen's pixels, the mouse hits what is seen, texts fit.
 #include <QApplication>
-#include <QDockWidget>
-#include <QDoubleSpinBox>
 #include <QLabel>
-#include <QMenu>
 #include <QMenuBar>
 #include <QScreen>
-#include <QScrollArea>
 #include <QSettings>
 #include <QToolButton>
 #include <glm/geometric.hpp>
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
-#include "ui/main/panel_docks.h"
-#include "ui/views/view_bar.h"
+#include "tests/ui/main/window_checks.h"
 
 namespace tidemark::test::scale_story_test {
 
@@ -105,51 +100,14 @@ void ScaleStoryTest::texts_of_the_bars_fit() {
   desktop.begin(10.0);
   desktop.window().active_case()->set_layout(ui::ViewLayout::two_two);
   desktop.wait_until_idle();
-  int bars = 0;
-  for (const ui::ViewBar* bar : desktop.window().active_case()->findChildren<ui::ViewBar*>()) {
-    if (!bar->isVisible()) continue;
-    ++bars;
-    QVERIFY(bar->height() >= bar->sizeHint().height());
-    for (const QWidget* part : bar->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
-      if (!part->isVisible() || qobject_cast<const QMenu*>(part)) continue;
-      const QSize wanted = part->sizeHint();
-      const auto* number = qobject_cast<const QDoubleSpinBox*>(part);
-      const int width = number ? number->fontMetrics().horizontalAdvance(number->text()) + 8 : wanted.width();
-      QVERIFY2(part->width() >= width && part->height() >= std::min(wanted.height(), bar->height() - 2),
-               qPrintable(QString("%1 \"%2\": %3 x %4, wants %5 x %6")
-                              .arg(part->metaObject()->className(), part->accessibleName())
-                              .arg(part->width())
-                              .arg(part->height())
-                              .arg(width)
-                              .arg(wanted.height())));
-    }
-  }
-  QCOMPARE(bars, 4);
+  QCOMPARE(cut_bars(desktop.window()), QStringList());
 }
 
 void ScaleStoryTest::panels_fit_into_their_column() {
   Desktop desktop(solver::ExecutorKind::host, {1100, 760});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  int panels = 0;
-  for (const char* name : {"initialise", "level-set", "history", "paint", "display", "transfer", "labels",
-                           "statistics", "sweep"}) {
-    desktop.window().panels().show(name);
-    QTest::qWait(50);
-    auto* dock = desktop.window().findChild<QDockWidget*>(name);
-    QVERIFY2(dock && dock->isVisible(), name);
-    QCOMPARE(dock->width(), 320);
-    for (const QScrollArea* area : dock->findChildren<QScrollArea*>()) {
-      if (!area->isVisible()) continue;
-      QVERIFY2(
-          Desktop::wait_for([&] { return area->widget()->width() <= area->viewport()->width(); }),
-          qPrintable(
-              QString("%1: %2 in %3").arg(name).arg(area->widget()->width()).arg(area->viewport()->width())));
-      ++panels;
-    }
-    desktop.screenshot(QStringLiteral("panel-%1-%2").arg(name).arg(desktop.window().devicePixelRatioF()));
-  }
-  QCOMPARE(panels, 8);
+  QCOMPARE(panels_too_wide(desktop, QString::number(desktop.window().devicePixelRatioF())), QStringList());
 }
 
 void ScaleStoryTest::the_icon_of_a_case_is_whole() {

@@ -1,0 +1,108 @@
+// Texts of a language, and sentences in which values were filled in before they were translated.
+#include "ui/look/catalogue.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QTest>
+
+#include "engine/message_text.h"
+#include "tests/support/test_program.h"
+#include "ui/look/language.h"
+
+namespace tidemark::test::catalogue_test {
+
+class CatalogueTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() { QCoreApplication::installTranslator(&catalogue_); }
+  void cleanupTestCase() { QCoreApplication::removeTranslator(&catalogue_); }
+
+  void a_text_is_known_in_any_context() {
+    QCOMPARE(QCoreApplication::translate("A", "Open"), QStringLiteral("Öffnen"));
+    QCOMPARE(QCoreApplication::translate("B", "Open"), QStringLiteral("Öffnen"));
+    QCOMPARE(QCoreApplication::translate("A", "Close"), QStringLiteral("Close"));
+  }
+
+  void values_of_a_sentence_are_found_and_filled_in() {
+    QCOMPARE(said("a/b.dcm: no pixel data"), QStringLiteral("a/b.dcm: keine Pixeldaten"));
+    QCOMPARE(said("3 of 12 slices"), QStringLiteral("von 12 Schichten 3"));
+    QCOMPARE(said("2 spaces"), QStringLiteral("2 spaces"));
+  }
+
+  void a_sentence_within_a_sentence_is_translated_too() {
+    QCOMPARE(said("x.nii: cannot be read: dim[3] is 7 mm"),
+             QStringLiteral("x.nii: nicht lesbar: dim[3] ist 7 mm"));
+  }
+
+  void the_most_exact_pattern_is_taken() {
+    QCOMPARE(said("x: cannot be read: why"), QStringLiteral("x: nicht lesbar: why"));
+  }
+
+  void one_word_is_a_name_and_stays() {
+    QCOMPARE(said("Open: no pixel data"), QStringLiteral("Open: keine Pixeldaten"));
+  }
+
+  void lines_are_sentences_of_their_own() {
+    QCOMPARE(said("a: no pixel data\nunknown\nOpen"), QStringLiteral("a: keine Pixeldaten\nunknown\nÖffnen"));
+  }
+
+  // What the user interface says is not searched for sentences.
+  void texts_of_the_user_interface_are_taken_as_they_are() {
+    QCOMPARE(QCoreApplication::translate("A", "a: no pixel data"), QStringLiteral("a: no pixel data"));
+  }
+
+  void doubled_braces_are_braces() {
+    QCOMPARE(ui::Catalogue::filled("{{}} {} {0:.2f}", {"1", "2"}), QStringLiteral("{} 1 1"));
+    QCOMPARE(said("{x} is needed: 5"), QStringLiteral("5: {x} fehlt"));
+  }
+
+  void what_is_no_catalogue_knows_nothing() {
+    for (const char* json : {"", "[]", "{", "{\"a\": 1}", "{\"a\": \"\"}"}) {
+      QVERIFY2(ui::Catalogue(QByteArray(json)).isEmpty(), json);
+    }
+  }
+
+  void each_language_has_a_file_and_each_file_a_language() {
+    QStringList files = QDir(":/tidemark/languages").entryList({"*.json"}, QDir::Files, QDir::Name);
+    for (const ui::Language& language : ui::languages()) {
+      const QString code = QString::fromLatin1(language.code);
+      QCOMPARE(QLocale(code).name().startsWith(code), true);
+      if (code == "en") continue;
+      QVERIFY2(files.removeOne(code + ".json"), language.code);
+      QFile file(":/tidemark/languages/" + code + ".json");
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      const QJsonObject texts = QJsonDocument::fromJson(file.readAll()).object();
+      QVERIFY2(texts.size() > 2000, language.code);
+      QVERIFY2(!texts["&File"].toString().isEmpty(), language.code);
+    }
+    QCOMPARE(files, QStringList());
+  }
+
+  void a_language_is_used_and_given_up_again() {
+    ui::use_language("de");
+    QCOMPARE(QCoreApplication::translate("A", "Tidemark has no such text"),
+             QStringLiteral("Tidemark has no such text"));
+    QVERIFY(QCoreApplication::translate("A", "&File") != "&File");
+    QCOMPARE(QLocale().language(), QLocale::German);
+    ui::use_language("en");
+    QCOMPARE(QCoreApplication::translate("A", "&File"), QStringLiteral("&File"));
+    QCOMPARE(QLocale().language(), QLocale::English);
+  }
+
+ private:
+  static QString said(const std::string& message) { return engine::message_text(message); }
+
+  ui::Catalogue catalogue_{R"({"Open": "Öffnen", "{}: no pixel data": "{}: keine Pixeldaten",
+    "{} of {} slices": "von {1} Schichten {0}", "{}: cannot be read: {}": "{}: nicht lesbar: {}",
+    "{}: {} is needed": "{}: falsch {}", "{} is {:.3g} mm": "{} ist {} mm",
+    "{{x}} is needed: {}": "{}: {{x}} fehlt"})"};
+};
+
+TIDEMARK_TEST(CatalogueTest)
+
+}  // namespace tidemark::test::catalogue_test
+
+#include "catalogue_test.moc"

@@ -1,0 +1,215 @@
+// Languages: the same cases in another one at once, and whether each has all texts and they fit.
+#include <QDialog>
+#include <QMenuBar>
+#include <QRegularExpression>
+#include <QScopeGuard>
+#include <QSet>
+#include <QTimer>
+#include <QTranslator>
+
+#include "engine/lesson_course.h"
+#include "tests/support/ball_lesson.h"
+#include "tests/support/test_program.h"
+#include "tests/ui/main/desktop.h"
+#include "tests/ui/main/window_checks.h"
+#include "ui/look/language.h"
+#include "ui/main/panel_docks.h"
+#include "ui/main/teaching.h"
+#include "ui/settings.h"
+
+namespace tidemark::test::languages_story_test {
+namespace {
+
+constexpr int kPatience = 60'000;  // ms
+
+// Qt asks it for what no other translator knows.
+class Untranslated : public QTranslator {
+ public:
+  Untranslated() { QCoreApplication::installTranslator(this); }
+  ~Untranslated() override { QCoreApplication::removeTranslator(this); }
+
+  [[nodiscard]] bool isEmpty() const override { return false; }
+  QString translate(const char* context, const char* text, const char* /*comment*/, int /*n*/) const override {
+    static const QRegularExpression kWord("[^\\W\\d_]{2}", QRegularExpression::UseUnicodePropertiesOption);
+    const bool of_qt = context && context[0] == 'Q';
+    if (!of_qt && QString::fromUtf8(text).remove(QRegularExpression("%\\d")).contains(kWord)) {
+      texts_ << QStringLiteral("%1: %2").arg(QString::fromUtf8(context), QString::fromUtf8(text));
+    }
+    return {};
+  }
+  [[nodiscard]] QStringList texts() const { return {texts_.begin(), texts_.end()}; }
+
+ private:
+  mutable QSet<QString> texts_;
+};
+
+class DesktopIn : public Desktop {
+ public:
+  explicit DesktopIn(const QByteArray& language)
+      : Desktop((qputenv("TIDEMARK_STORY_LANGUAGE", language), story_executor())) {}
+  ~DesktopIn() {
+    ui::use_language("en");
+    QLocale::setDefault(QLocale::c());
+    qunsetenv("TIDEMARK_STORY_LANGUAGE");
+  }
+
+  // By clicks in the menus, in which each language has its own name.
+  void speak(const QString& language) {
+    ui::MainWindow* before = &window();
+    QAction* wanted = nullptr;
+    for (QAction* action : window().actions().languages->actions()) {
+      if (action->text() == language) wanted = action;
+    }
+    QVERIFY(wanted);
+    const QString view = window().menuBar()->actions().at(2)->text();
+    choose(QString(view).remove('&'), wanted);
+    QVERIFY(wait_for([&] { return &window() != before; }, kPatience));
+    wait_until_idle();
+    // To make a window takes longer than an event may.
+    WatchedApplication::instance().take_held();
+  }
+  QString menu(int index) { return window().menuBar()->actions().at(index)->text().remove('&'); }
+};
+
+}  // namespace
+
+class LanguagesStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void another_language_shows_the_same_cases() {
+    DesktopIn desktop("en");
+    QVERIFY(desktop.open_phantom("sphere"));
+    desktop.begin(10.0);
+    QVERIFY(desktop.open_phantom("dumbbell"));
+    desktop.begin(8.0);
+    desktop.window().actions().link->trigger();
+    desktop.window().actions().lock_step->trigger();
+    const QList<ui::CaseWindow*> cases = desktop.window().cases();
+    QCOMPARE(cases.size(), qsizetype{2});
+    cases[0]->add_view(ui::ViewKind::coronal);
+    desktop.window().bring_to_front(*cases[0]);
+    QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() == cases[0]; }));
+    engine::CaseProxy* const first = &cases[0]->proxy();
+    engine::CaseProxy* const second = &cases[1]->proxy();
+    const qsizetype views = cases[0]->views().size();
+    const auto camera = first->display().settings().camera;
+    first->play();
+    QVERIFY(Desktop::wait_for([&] { return first->state().step > 3; }, kPatience));
+
+    desktop.speak("Deutsch");
+    QCOMPARE(desktop.menu(0), QStringLiteral("Datei"));
+    const QList<ui::CaseWindow*> now = desktop.window().cases();
+    QCOMPARE(now.size(), qsizetype{2});
+    QCOMPARE(&now[0]->proxy(), first);
+    QCOMPARE(&now[1]->proxy(), second);
+    QCOMPARE(desktop.window().active_case(), now[0]);
+    QCOMPARE(now[0]->number(), 1);
+    QCOMPARE(now[1]->number(), 2);
+    QVERIFY(now[0]->linked() && now[1]->linked());
+    QVERIFY(desktop.window().actions().lock_step->isChecked());
+    QVERIFY(first->in_lock_step() && second->in_lock_step());
+    QCOMPARE(now[0]->views().size(), views);
+    QCOMPARE(first->display().settings().camera.azimuth, camera.azimuth);
+    QVERIFY(first->state().modified);
+    // It plays on, and stops where it is told to in the new window.
+    const std::int64_t step = first->state().step;
+    QVERIFY(Desktop::wait_for([&] { return first->state().step > step + 3; }, kPatience));
+    desktop.press(Qt::Key_Space);
+    QVERIFY(Desktop::wait_for([&] { return !first->state().playing; }, kPatience));
+    desktop.wait_until_idle();
+    for (ui::PictureView* view : now[0]->views()) {
+      if (view->isVisible()) QVERIFY2(shows_a_picture(*view), qPrintable(view->title()));
+    }
+    desktop.screenshot("language-switched");
+
+    // The others follow one that moves, as before.
+    now[0]->proxy().display().change([](engine::DisplaySettings& s) { s.camera.azimuth += 25.0; });
+    QCOMPARE(second->display().settings().camera.azimuth, first->display().settings().camera.azimuth);
+
+    desktop.speak("日本語");
+    QVERIFY(desktop.menu(0) != "Datei" && desktop.menu(0) != "File");
+    QCOMPARE(&desktop.proxy(), first);
+    desktop.speak("English");
+    QCOMPARE(desktop.menu(0), QStringLiteral("File"));
+    QCOMPARE(ui::settings::language().get(), QStringLiteral("en"));
+  }
+
+  void a_lesson_goes_on_in_another_language() {
+    DesktopIn desktop("en");
+    const auto lesson = document::Lesson::parse(kBallLesson, "lesson");
+    QVERIFY(lesson.has_value());
+    desktop.window().teaching().begin(*lesson, {});
+    engine::LessonCourse* const course = desktop.window().teaching().course();
+    course->choose(1);
+    course->attempt();
+    QVERIFY(Desktop::wait_for([&] { return course->tried(0); }, kPatience));
+    desktop.wait_until_idle();
+    desktop.speak("Français");
+    QCOMPARE(desktop.window().teaching().course(), course);
+    QVERIFY(course->tried(0));
+    QCOMPARE(course->proxy(), &desktop.proxy());
+    course->measure();
+    QVERIFY(Desktop::wait_for([&] { return course->done(0); }, kPatience));
+    desktop.screenshot("language-lesson");
+  }
+
+  void every_language_has_all_texts_and_they_fit_data() {
+    QTest::addColumn<QByteArray>("language");
+    QTest::addColumn<bool>("mirrored");
+    for (const ui::Language& language : ui::languages())
+      QTest::newRow(language.code) << QByteArray(language.code) << false;
+    QTest::newRow("from right to left") << QByteArray("en") << true;
+  }
+
+  void every_language_has_all_texts_and_they_fit() {
+    QFETCH(QByteArray, language);
+    QFETCH(bool, mirrored);
+    const auto back = qScopeGuard([] { QApplication::setLayoutDirection(Qt::LeftToRight); });
+    if (mirrored) QApplication::setLayoutDirection(Qt::RightToLeft);
+    const Untranslated untranslated;
+    DesktopIn desktop(language);
+    const QString name = QString::fromLatin1(language) + (mirrored ? "-mirrored" : "");
+    desktop.screenshot_at_once("language-" + name + "-start");
+    QVERIFY(desktop.open_phantom("tumour"));
+    desktop.begin(12.0);
+    desktop.window().active_case()->set_layout(ui::ViewLayout::two_two);
+    desktop.proxy().step(40);
+    desktop.proxy().accept_surface_as("A");
+    desktop.wait_until_idle();
+    desktop.window().panels().show("level-set");
+    desktop.screenshot("language-" + name + "-steered");
+    QCOMPARE(doubled_menu_letters(desktop.window()), QStringList());
+    QCOMPARE(cut_bars(desktop.window()), QStringList());
+    QCOMPARE(panels_too_wide(desktop, name), QStringList());
+    see_dialog(desktop, *desktop.window().actions().export_segmentation, "language-" + name + "-export");
+    see_dialog(desktop, *desktop.window().actions().first_steps, "language-" + name + "-first-steps");
+    see_dialog(desktop, *desktop.window().actions().about, "language-" + name + "-about");
+    if (language != "en") QCOMPARE(untranslated.texts(), QStringList());
+    // A mirrored word order is no fault; a window that is too wide for the screen is.
+    QCOMPARE(desktop.window().width(), 1280);
+    QCOMPARE(desktop.window().height(), 800);
+  }
+
+ private:
+  // Opens it, and closes it again.
+  static void see_dialog(Desktop& desktop, QAction& action, const QString& picture) {
+    bool seen = false;
+    std::function<void()> look = [&] {
+      QWidget* dialog = QApplication::activeModalWidget();
+      if (!dialog) return QTimer::singleShot(50, &desktop.window(), look);
+      desktop.screenshot_at_once(picture);
+      seen = true;
+      dialog->close();
+    };
+    QTimer::singleShot(0, &desktop.window(), look);
+    action.trigger();
+    QVERIFY2(Desktop::wait_for([&] { return seen; }), qPrintable(action.text()));
+  }
+};
+
+TIDEMARK_TEST(LanguagesStoryTest)
+
+}  // namespace tidemark::test::languages_story_test
+
+#include "languages_story_test.moc"

@@ -1,0 +1,32 @@
+// The main window in the language that the user wants.
+#pragma once
+
+#include <QObject>
+#include <memory>
+
+#include "engine/engine.h"
+
+namespace tidemark::ui {
+
+class MainWindow;
+
+// Texts are made with their widgets. Where the language changes, the window goes, and another one around the
+// same cases comes.
+class LanguageSwitch : public QObject {
+  Q_OBJECT
+ public:
+  // Shows the window, in the language of the settings.
+  explicit LanguageSwitch(engine::Engine& engine);
+  ~LanguageSwitch() override;
+
+  [[nodiscard]] MainWindow& window() { return *window_; }
+
+ private:
+  void make_window();
+  void change();
+
+  engine::Engine& engine_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+}  // namespace tidemark::ui

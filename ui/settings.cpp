@@ -1,0 +1,86 @@
+#include "ui/settings.h"
+
+#include <QFileInfo>
+
+#include "core/site_folder.h"
+#include "ui/look/theme.h"
+#include "ui/main/case_window.h"
+
+namespace tidemark::ui {
+namespace {
+
+template <class Described>
+SettingText described(const Described& setting) {
+  return {setting.name(), setting.text(), origin_of(setting.name()), is_locked(setting.name())};
+}
+
+QString origin_text(const SettingText& setting) {
+  if (setting.locked) return QStringLiteral("the site's, locked");
+  switch (setting.origin) {
+    case SettingOrigin::program:
+      break;
+    case SettingOrigin::site:
+      return QStringLiteral("the site's");
+    case SettingOrigin::user:
+      return QStringLiteral("the user's");
+  }
+  return QStringLiteral("the program's");
+}
+
+}  // namespace
+
+bool is_locked(const QString& name) {
+  const QSettings site(settings::site_file(), QSettings::IniFormat);
+  return site.contains(name) && site.value(QStringLiteral("locked")).toStringList().contains(name);
+}
+
+SettingOrigin origin_of(const QString& name) {
+  if (QSettings().contains(name) && !is_locked(name)) return SettingOrigin::user;
+  const QSettings site(settings::site_file(), QSettings::IniFormat);
+  return site.contains(name) ? SettingOrigin::site : SettingOrigin::program;
+}
+
+QVariant setting_value(const QString& name) {
+  switch (origin_of(name)) {
+    case SettingOrigin::program:
+      break;
+    case SettingOrigin::site:
+      return QSettings(settings::site_file(), QSettings::IniFormat).value(name);
+    case SettingOrigin::user:
+      return QSettings().value(name);
+  }
+  return {};
+}
+
+void set_setting(const QString& name, const QVariant& value) {
+  if (!is_locked(name)) QSettings().setValue(name, value);
+}
+
+QString settings::site_file() {
+  return QString::fromStdString((site_folder() / "tidemark.conf").string());
+}
+
+std::vector<SettingText> settings::all() {
+  return {described(language()),     described(theme()),       described(layout()),
+          described(mouse_scheme()), described(open_folder()), described(save_folder()),
+          described(retrieval_folder({})), described(server())};
+}
+
+QString settings::print() {
+  QString text = QStringLiteral("; the user's: %1\n; the site's: %2%3\n")
+                     .arg(QSettings().fileName(), site_file(),
+                          QFileInfo::exists(site_file()) ? QString() : QStringLiteral(", which is not there"));
+  QString group = QStringLiteral("General");
+  text += QStringLiteral("[General]\n");
+  for (const SettingText& setting : all()) {
+    const QStringList path = setting.name.split(u'/');
+    if (path.size() > 1 && path.front() != group) {
+      group = path.front();
+      text += QStringLiteral("[%1]\n").arg(group);
+    }
+    text += QStringLiteral("; %1\n%2=%3\n").arg(origin_text(setting), path.back(), setting.value);
+  }
+  return text;
+}
+
+}  // namespace tidemark::ui
