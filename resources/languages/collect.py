@@ -122,7 +122,7 @@ def problem(english, translation):
         return "has other places for values (%1)"
     values = VALUE.findall(translation)
     numbered = [re.match(r"\{\d", value) is not None for value in values]
-    if any(numbered) != all(numbered) or (not any(numbered) and len(values) != len(VALUE.findall(english))):
+    if (any(numbered) and not all(numbered)) or (not any(numbered) and len(values) != len(VALUE.findall(english))):
         return "has other places for values ({})"
     key = re.compile(r"&(?=[^\s&;#]+(?:[^;]|$))")
     is_menu_entry = not re.search(r"<|&\w+;", english)
