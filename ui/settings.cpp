@@ -61,15 +61,16 @@ QString settings::site_file() {
 }
 
 std::vector<SettingText> settings::all() {
-  return {described(language()),     described(theme()),       described(layout()),
-          described(mouse_scheme()), described(open_folder()), described(save_folder()),
+  return {described(language()),           described(theme()),       described(layout()),
+          described(mouse_scheme()),       described(open_folder()), described(save_folder()),
           described(retrieval_folder({})), described(server())};
 }
 
 QString settings::print() {
-  QString text = QStringLiteral("; the user's: %1\n; the site's: %2%3\n")
-                     .arg(QSettings().fileName(), site_file(),
-                          QFileInfo::exists(site_file()) ? QString() : QStringLiteral(", which is not there"));
+  QString text =
+      QStringLiteral("; the user's: %1\n; the site's: %2%3\n")
+          .arg(QSettings().fileName(), site_file(),
+               QFileInfo::exists(site_file()) ? QString() : QStringLiteral(", which is not there"));
   QString group = QStringLiteral("General");
   text += QStringLiteral("[General]\n");
   for (const SettingText& setting : all()) {

@@ -1,6 +1,6 @@
 // The settings that the desktop keeps from one run to the next: each with its name, its type and its first
-// value. The list of recent studies keeps itself (RecentStudies). A site's administrator may give first values for
-// all users, and lock them: docs/how-to/site.md.
+// value. The list of recent studies keeps itself (RecentStudies). A site's administrator may give first
+// values for all users, and lock them: docs/how-to/site.md.
 #pragma once
 
 #include <QByteArray>
@@ -115,7 +115,6 @@ inline Setting<QString> retrieval_folder(const QString& at_first) {
 inline Setting<QString> server() {  // by name; the one used last
   return Setting<QString>("pacs/server");
 }
-
 
 // $TIDEMARK_SITE/tidemark.conf, else /etc/tidemark/tidemark.conf, as QSettings writes INI files.
 [[nodiscard]] QString site_file();

@@ -95,6 +95,19 @@ def sentences(tokens):
     return found
 
 
+def lesson_texts(lesson):
+    """What students read, in the order of the file."""
+    found = []
+    for key, value in lesson.items() if isinstance(lesson, dict) else enumerate(lesson):
+        if key == "choices":
+            found += value
+        elif isinstance(value, (dict, list)):
+            found += lesson_texts(value)
+        elif key in ("title", "about", "text", "explanation"):
+            found.append(value)
+    return found
+
+
 def collected():
     """The texts in the order of the sources, each once."""
     texts = {}
@@ -111,6 +124,9 @@ def collected():
             for text in found:
                 if re.search(r"[^\W\d_]{2}", PLACE.sub("", VALUE.sub("", text))):
                     texts.setdefault(text, name)
+    for path in sorted((ROOT / "resources/lessons").glob("*.json")):
+        for text in lesson_texts(json.loads(path.read_text(encoding="utf-8"))):
+            texts.setdefault(text, str(path.relative_to(ROOT)))
     return texts
 
 

@@ -58,8 +58,9 @@ class SettingsTest : public QObject {
   }
 
   void an_enumeration_is_a_word_or_the_number_that_it_once_was() {
-    for (const auto& [kept, theme] : {std::pair("dark", ui::Theme::dark), std::pair("1", ui::Theme::light),
-                                      std::pair("7", ui::Theme::system), std::pair("red", ui::Theme::system)}) {
+    for (const auto& [kept, theme] :
+         {std::pair("dark", ui::Theme::dark), std::pair("1", ui::Theme::light),
+          std::pair("7", ui::Theme::system), std::pair("red", ui::Theme::system)}) {
       QSettings().setValue("theme", kept);
       QCOMPARE(ui::settings::theme().get(), theme);
     }

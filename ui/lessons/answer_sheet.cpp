@@ -7,8 +7,8 @@
 namespace tidemark::ui {
 namespace {
 
-QString html(const std::string& text) {
-  return QString::fromStdString(text).toHtmlEscaped().replace(QChar('\n'), QStringLiteral("<br/>"));
+QString html(const QString& text) {
+  return text.toHtmlEscaped().replace(QChar('\n'), QStringLiteral("<br/>"));
 }
 
 QString row(const QString& name, const QString& value) {
@@ -16,14 +16,16 @@ QString row(const QString& name, const QString& value) {
 }
 
 QString question_rows(const document::LessonQuestion& question, const document::PartAnswers& given) {
-  QString rows = row(tr("Question"), html(question.text));
+  QString rows = row(tr("Question"), html(lesson_words(question.text)));
   const bool chosen = given.choice.has_value();
-  const QString answer = html(chosen ? question.choices[*given.choice] : given.words);
+  const QString answer =
+      html(chosen ? lesson_words(question.choices[*given.choice]) : QString::fromStdString(given.words));
   rows += row(tr("Answer"), answer.isEmpty() ? tr("none") : QStringLiteral("<b>%1</b>").arg(answer));
   if (question.right) {
     const bool right = given.choice == question.right;
     rows += row(QString(),
-                right ? tr("right") : tr("right would be: %1").arg(html(question.choices[*question.right])));
+                right ? tr("right")
+                      : tr("right would be: %1").arg(html(lesson_words(question.choices[*question.right]))));
   }
   return rows;
 }
@@ -48,14 +50,17 @@ QString figure_rows(const document::LessonPart& part, const document::PartAnswer
 QString page(const document::Lesson& lesson, const document::LessonAnswers& answers) {
   const document::LessonScore score = document::score(lesson, answers);
   QString text = QStringLiteral("<h1>%1</h1><p>%2</p><table cellpadding='3'>")
-                     .arg(html(lesson.title), html(lesson.about));
-  text += row(tr("Name"), html(answers.student)) + row(tr("Date"), html(answers.date));
+                     .arg(html(lesson_words(lesson.title)), html(lesson_words(lesson.about)));
+  text += row(tr("Name"), html(QString::fromStdString(answers.student))) +
+          row(tr("Date"), html(QString::fromStdString(answers.date)));
   text += row(tr("Right predictions"), tr("%1 of %2").arg(score.right).arg(score.questions));
   text += row(tr("Figures as expected"), tr("%1 of %2").arg(score.in_range).arg(score.figures));
   text += QStringLiteral("</table>");
   for (std::size_t i = 0; i < lesson.parts.size() && i < answers.parts.size(); ++i) {
     const document::LessonPart& part = lesson.parts[i];
-    text += QStringLiteral("<h3>%1. %2</h3><table cellpadding='3'>").arg(i + 1).arg(html(part.title));
+    text += QStringLiteral("<h3>%1. %2</h3><table cellpadding='3'>")
+                .arg(i + 1)
+                .arg(html(lesson_words(part.title)));
     if (part.question) text += question_rows(*part.question, answers.parts[i]);
     text += figure_rows(part, answers.parts[i]) + QStringLiteral("</table>");
   }
@@ -66,7 +71,7 @@ QString page(const document::Lesson& lesson, const document::LessonAnswers& answ
 
 Status write_answer_sheet(const document::Lesson& lesson, const document::LessonAnswers& answers,
                           const std::filesystem::path& file) {
-  return write_pdf_file(page(lesson, answers), QString::fromStdString(lesson.title), file);
+  return write_pdf_file(page(lesson, answers), lesson_words(lesson.title), file);
 }
 
 }  // namespace tidemark::ui

@@ -12,6 +12,7 @@
 
 #include "ui/lessons/hand_in_box.h"
 #include "ui/lessons/lesson_part_view.h"
+#include "ui/lessons/lesson_text.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/relative_font.h"
@@ -56,7 +57,7 @@ QWidget* LessonPanel::make_head() {
   auto* column = new QVBoxLayout(head);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(kSpace);
-  auto* title = new QLabel(QString::fromStdString(course_.lesson().title));
+  auto* title = new QLabel(lesson_words(course_.lesson().title));
   title->setTextFormat(Qt::PlainText);
   title->setWordWrap(true);
   set_relative_font(*title, kTitleSize, QFont::Bold);
@@ -64,7 +65,7 @@ QWidget* LessonPanel::make_head() {
   parts_->setAccessibleName(tr("Parts of the lesson"));
   parts_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   for (const document::LessonPart& part : course_.lesson().parts) {
-    parts_->addItem(QString::fromStdString(part.title));
+    parts_->addItem(lesson_words(part.title));
   }
   column->addWidget(title);
   column->addWidget(parts_);
@@ -126,7 +127,7 @@ void LessonPanel::follow() {
     QMetaObject::invokeMethod(this, &LessonPanel::show_outcome, Qt::QueuedConnection);
   const std::size_t count = course_.lesson().parts.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const QString title = QString::fromStdString(course_.lesson().parts[i].title);
+    const QString title = lesson_words(course_.lesson().parts[i].title);
     const QString done = course_.done(i) ? tr(" (done)") : QString();
     parts_->setItemText(static_cast<int>(i), tr("%1 of %2: %3").arg(i + 1).arg(count).arg(title) + done);
   }

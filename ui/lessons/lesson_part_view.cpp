@@ -39,7 +39,7 @@ LessonPartView::LessonPartView(engine::LessonCourse& course, QWidget* parent)
       column_(new QVBoxLayout(this)) {
   column_->setContentsMargins(0, 0, 0, 0);
   column_->setSpacing(kSpace);
-  add_heading(QString::fromStdString(part_.title));
+  add_heading(lesson_words(part_.title));
   add_text(part_.text);
   if (part_.question) add_question();
   if (part_.attempt) add_try();
@@ -59,7 +59,7 @@ QLabel* LessonPartView::add_heading(const QString& text) {
 }
 
 QLabel* LessonPartView::add_text(const std::string& text) {
-  auto* label = plain_label(QString::fromStdString(text));
+  auto* label = plain_label(lesson_words(text));
   column_->addWidget(label);
   return label;
 }
@@ -84,7 +84,7 @@ void LessonPartView::add_question() {
   grid->setVerticalSpacing(kSpaceTight);
   grid->setColumnStretch(1, 1);
   for (std::size_t i = 0; i < question.choices.size(); ++i) {
-    const QString text = QString::fromStdString(question.choices[i]);
+    const QString text = lesson_words(question.choices[i]);
     const int row = static_cast<int>(i);
     // A radio button's own text does not wrap. A blank one is as high as a line: the mark is beside the
     // first.
@@ -177,7 +177,7 @@ void LessonPartView::add_explanation() {
   heading->setFont(bold);
   heading->setVisible(!part_.explanation.empty());
   verdict_ = plain_label({});
-  auto* text = plain_label(QString::fromStdString(part_.explanation));
+  auto* text = plain_label(lesson_words(part_.explanation));
   text->setVisible(!part_.explanation.empty());
   column->addWidget(heading);
   column->addWidget(verdict_);
@@ -229,7 +229,7 @@ QString LessonPartView::verdict() const {
   if (!part_.question || !part_.question->right) return {};
   const std::string& right = part_.question->choices[*part_.question->right];
   if (course_.given().choice == part_.question->right) return tr("Your prediction was right.");
-  return tr("Your prediction was not what happened. Right is: %1").arg(QString::fromStdString(right));
+  return tr("Your prediction was not what happened. Right is: %1").arg(lesson_words(right));
 }
 
 }  // namespace tidemark::ui

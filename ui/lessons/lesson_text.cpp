@@ -7,30 +7,15 @@
 namespace tidemark::ui {
 namespace {
 
-// As document/lesson_figure.cpp names them, for translators.
-[[maybe_unused]] constexpr const char* kTitles[] = {
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Volume"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Area"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Radius of the ball of that volume"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Roundness (1: a ball)"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Separate bodies"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Steps since the start"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Rests (1: yes, 0: no)"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Time step"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Dice"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Mean distance to the truth"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Largest distance to the truth"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Mean departure of |∇φ| from 1 beside the surface"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Resident pages"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Pages that are resident"),
-    QT_TRANSLATE_NOOP("tidemark::LessonFigure", "Memory of the level set"),
-};
-
 QString text(std::string_view words) {
   return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
 }
 
 }  // namespace
+
+QString lesson_words(const std::string& words) {
+  return QCoreApplication::translate("Lesson", words.c_str());
+}
 
 QString figure_title(std::string_view figure) {
   const document::LessonFigure* known = document::lesson_figure(figure);

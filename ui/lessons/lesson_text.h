@@ -8,6 +8,8 @@
 
 namespace tidemark::ui {
 
+// A text of a lesson: of the program's own in the user's language, of others as it is.
+[[nodiscard]] QString lesson_words(const std::string& words);
 [[nodiscard]] QString figure_title(std::string_view figure);                  // "Volume"
 [[nodiscard]] QString title_with_unit(const document::LessonFigure& figure);  // "Volume (ml)"
 [[nodiscard]] QString figure_text(const std::string& figure, double value);   // "33.51 ml"

@@ -44,10 +44,11 @@ QString steps(const Actions& actions) {
 QString mouse() {
   return QStringLiteral("<table>%1</table>")
       .arg(row(tr("left button"), mouse_scheme() == MouseScheme::itk_snap
-                               ? tr("the tool; else the crosshair on slices, turning in 3D")
-                               : tr("the tool; window and level on slices, turning in 3D")) +
+                                      ? tr("the tool; else the crosshair on slices, turning in 3D")
+                                      : tr("the tool; window and level on slices, turning in 3D")) +
            row(tr("middle button"), tr("move the picture")) +
-           row(tr("right button"), tr("zoom, a click opens a menu; the opposite of the brush while painting")) +
+           row(tr("right button"),
+               tr("zoom, a click opens a menu; the opposite of the brush while painting")) +
            row(tr("with Examples"), tr("left inside, right outside, with Ctrl takes strokes away")) +
            row(tr("wheel"), tr("slices; the clip plane or zoom in 3D")) +
            row(tr("Shift + wheel"), tr("size of the brush")) + row(tr("Ctrl + wheel"), tr("zoom")) +

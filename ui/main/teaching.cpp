@@ -15,6 +15,7 @@
 #include "engine/message_text.h"
 #include "ui/lessons/lesson_editor.h"
 #include "ui/lessons/lesson_panel.h"
+#include "ui/lessons/lesson_text.h"
 #include "ui/look/polish_again.h"
 #include "ui/main/case_files.h"
 #include "ui/main/case_head.h"
@@ -47,9 +48,8 @@ void Teaching::fill(QMenu& menu) {
   for (const document::OwnLesson& own : document::own_lessons()) {
     const auto lesson = document::Lesson::parse(own.text, std::string(own.name));
     if (!lesson) continue;  // a test holds that none is
-    auto* action =
-        menu.addAction(QStringLiteral("&%1 %2").arg(++number).arg(QString::fromStdString(lesson->title)));
-    action->setToolTip(QString::fromStdString(lesson->about));
+    auto* action = menu.addAction(QStringLiteral("&%1 %2").arg(++number).arg(lesson_words(lesson->title)));
+    action->setToolTip(lesson_words(lesson->about));
     connect(action, &QAction::triggered, this, [this, lesson = *lesson] { begin(lesson, {}); });
   }
   menu.setToolTipsVisible(true);
@@ -221,7 +221,7 @@ bool Teaching::may_close() {
   if (course_ && course_->has_news() &&
       QMessageBox::question(&window_, tr("End the lesson"),
                             tr("The answers to “%1” were not saved. Close all the same?")
-                                .arg(QString::fromStdString(course_->lesson().title))) != QMessageBox::Yes) {
+                                .arg(lesson_words(course_->lesson().title))) != QMessageBox::Yes) {
     return false;
   }
   return editor_may_close();

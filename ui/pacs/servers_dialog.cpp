@@ -53,12 +53,12 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
   });
   connect(&client_, &engine::PacsClient::failed, this, &ServersDialog::say);
   // What is saved is the user's own.
-  const auto file = imaging::pacs_configuration_to_read(file_);
-  auto read = imaging::read_pacs_configuration(file);
+  const auto first_file = imaging::pacs_configuration_to_read(file_);
+  auto read = imaging::read_pacs_configuration(first_file);
   std::error_code error;
   if (read) {
     configuration_ = std::move(*read);
-  } else if (std::filesystem::exists(file, error)) {
+  } else if (std::filesystem::exists(first_file, error)) {
     say(engine::message_text(read.error()));
     // Its content would be lost.
     QPushButton* save = buttons->button(QDialogButtonBox::Save);

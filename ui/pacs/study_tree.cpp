@@ -7,7 +7,7 @@ namespace tidemark::ui {
 namespace {
 
 enum Column { kName, kId, kDate, kModality, kDescription, kObjects, kColumns };
-constexpr int kColumnGap = 14;
+constexpr int kTreeColumnGap = 14;
 constexpr int kLeastNameWidth = 180;  // also for the series below
 constexpr int kStudyRole = Qt::UserRole;
 constexpr int kSeriesRole = Qt::UserRole + 1;  // of a series' row
@@ -58,7 +58,7 @@ void StudyTree::show_studies(const imaging::Found<imaging::PacsStudy>& studies) 
   for (const int column : {kName, kId, kDate, kModality, kObjects}) {
     resizeColumnToContents(column);
     const int least = column == kName ? kLeastNameWidth : 0;
-    setColumnWidth(column, std::max(columnWidth(column) + kColumnGap, least));
+    setColumnWidth(column, std::max(columnWidth(column) + kTreeColumnGap, least));
   }
   if (topLevelItemCount() > 0) setCurrentItem(topLevelItem(0));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/look/colour.h"
 #include "ui/look/theme.h"
 #include "ui/panels/value_unit.h"
 #include "ui/views/marks_overlay.h"
@@ -16,11 +17,6 @@ namespace {
 using engine::JointHistogram;
 
 constexpr double kPoint = 1.6;  // radius
-
-QColor mixed(const QColor& from, const QColor& to, double share) {
-  const auto mix = [share](int a, int b) { return static_cast<int>(std::lround(a + share * (b - a))); };
-  return {mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue())};
-}
 
 // Null: there is none.
 std::shared_ptr<const document::CaseImage> second_image(const document::Drive& drive) {

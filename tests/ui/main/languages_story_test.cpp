@@ -29,7 +29,8 @@ class Untranslated : public QTranslator {
   ~Untranslated() override { QCoreApplication::removeTranslator(this); }
 
   [[nodiscard]] bool isEmpty() const override { return false; }
-  QString translate(const char* context, const char* text, const char* /*comment*/, int /*n*/) const override {
+  QString translate(const char* context, const char* text, const char* /*comment*/,
+                    int /*n*/) const override {
     static const QRegularExpression kWord("[^\\W\\d_]{2}", QRegularExpression::UseUnicodePropertiesOption);
     const bool of_qt = context && context[0] == 'Q';
     if (!of_qt && QString::fromUtf8(text).remove(QRegularExpression("%\\d")).contains(kWord)) {
