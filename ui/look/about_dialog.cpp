@@ -15,8 +15,8 @@ namespace {
 
 constexpr ThirdPartyPart kParts[] = {
     {"Qt 6", "LGPL-3.0-only", QT_TRANSLATE_NOOP("About", "windows and widgets")},
-    {"DCMTK", "BSD-3-Clause", "DICOM"},
-    {"OpenJPEG", "BSD-2-Clause", "JPEG 2000"},
+    {"DCMTK", "BSD-3-Clause", QT_TRANSLATE_NOOP("About", "DICOM")},
+    {"OpenJPEG", "BSD-2-Clause", QT_TRANSLATE_NOOP("About", "JPEG 2000")},
     {"ITK", "Apache-2.0", QT_TRANSLATE_NOOP("About", "NIfTI, NRRD, MetaImage and GIPL; smoothing")},
     {"OpenVDB", "MPL-2.0", QT_TRANSLATE_NOOP("About", "polygons from the surface")},
     {"Highway", "Apache-2.0", QT_TRANSLATE_NOOP("About", "vector instructions")},

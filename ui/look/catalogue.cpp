@@ -12,7 +12,7 @@ namespace tidemark::ui {
 namespace {
 
 const QRegularExpression& value_places() {
-  static const QRegularExpression places(QStringLiteral("\\{(\\d*)(?::[^}]*)?\\}"));
+  static const QRegularExpression places(QStringLiteral("(?<!\\{)\\{(\\d*)(?::[^}]*)?\\}(?!\\})"));
   return places;
 }
 

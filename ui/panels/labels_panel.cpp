@@ -106,9 +106,10 @@ QWidget* LabelsPanel::make_table_buttons() {
                    "through slices, with Ctrl only voxels as bright as the first one, within ε."));
   brush_->setCheckable(true);
   connect(brush_, &QToolButton::clicked, this, [this] { paint_by(false); });
-  outline_ =
-      make(tr("Outline"), u"label-outline",
-           tr("Paints what the mouse goes around in a slice. Left button: adds. Right button: takes away."));
+  outline_ = make(tr("Outline"), u"label-outline",
+                  tr("Paints what the mouse goes around in a slice, or a polygon by clicks, which a double "
+                     "click ends. Left "
+                     "button: adds. Right button: takes away."));
   outline_->setCheckable(true);
   connect(outline_, &QToolButton::clicked, this, [this] { paint_by(true); });
   connect(add, &QToolButton::clicked, this, &LabelsPanel::add_label);

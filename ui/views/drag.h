@@ -31,7 +31,7 @@ struct DragView {
   std::optional<engine::SliceSlab> slab;           // the voxels that a slice shows; none in 3D
 };
 
-// One gesture, from the press over every move to the release.
+// One gesture, from the press over every move to the release; or from click to click, see lifted().
 class Drag {
  public:
   explicit Drag(DragView view) : view_(std::move(view)) {}
@@ -40,7 +40,11 @@ class Drag {
   Drag& operator=(const Drag&) = delete;
 
   virtual void move(const Pointer& pointer) = 0;
-  virtual void release() {}
+  // The button is up. Whether the gesture goes on without it: then moves follow, and with the next press
+  // press().
+  [[nodiscard]] virtual bool lifted() { return false; }
+  virtual void press(const Pointer& /*pointer*/) {}
+  virtual void release() {}                                  // at its end
   virtual void paint(QPainter& /*painter*/) const {}         // over the view, while it lasts
   [[nodiscard]] virtual QString text() const { return {}; }  // beside the mouse: its result so far
 

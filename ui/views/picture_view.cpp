@@ -120,6 +120,7 @@ void PictureView::ask() {
 }
 
 void PictureView::follow_display() {
+  if (waits_for_click() && settings().tool != tool_of_drag_) set_drag(nullptr);
   setCursor(cursor_at(mouse_));
   ask();
   follow_forces();
@@ -276,12 +277,19 @@ std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
 
 void PictureView::mousePressEvent(QMouseEvent* event) {
   if (button_ != Qt::NoButton) return;  // one gesture at a time
-  button_ = event->button();
+  if (waits_for_click()) {
+    if (event->button() != first_button_) return;
+    button_ = first_button_;
+    drag_->press(pointer_at(*event));
+    return paint_again();
+  }
+  first_button_ = button_ = event->button();
   pressed_at_ = mouse_ = event->position();
   // A brush has something to do at once.
   const engine::Tool tool = settings().tool;
   const bool is_brush = engine::has_right_button(tool) && tool != engine::Tool::seed;
   may_be_click_ = button_ == Qt::RightButton && !is_brush;
+  tool_of_drag_ = tool;
   set_drag(begin_drag(pointer_at(*event)));
 }
 
@@ -311,6 +319,7 @@ void PictureView::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != button_) return;
   button_ = Qt::NoButton;
   const bool clicked = std::exchange(may_be_click_, false);
+  if (drag_ && drag_->lifted()) return paint_again();
   if (drag_ && !clicked) drag_->release();
   set_drag(nullptr);
   if (clicked) ask_for_menu(event->position());
@@ -341,6 +350,8 @@ void PictureView::find_place(QPointF position, std::function<void(std::optional<
 
 void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
   const engine::Tool tool = settings().tool;
+  // The second click of one that ended an outline begins no other.
+  if (tool == engine::Tool::label && display().label_brush().outlines && !waits_for_click()) return;
   // Dots are painted one quickly after the other.
   if (tool == engine::Tool::examples || tool == engine::Tool::wall || tool == engine::Tool::label)
     return mousePressEvent(event);
@@ -366,6 +377,7 @@ void PictureView::wheelEvent(QWheelEvent* event) {
   wheel_remainder_ -= clicks * kWheelClick;
   event->accept();
   if (clicks == 0) return;
+  if (waits_for_click() && !event->modifiers().testFlag(Qt::ControlModifier)) return;  // its slice stays
   if (event->modifiers().testFlag(Qt::ControlModifier)) {
     zoom(std::pow(kZoomStep, clicks), event->position());
   } else if (event->modifiers().testFlag(Qt::ShiftModifier)) {
@@ -382,7 +394,14 @@ void PictureView::wheelEvent(QWheelEvent* event) {
   }
 }
 
+// Return ends a gesture of clicks, and Escape gives it up. Other keys are its view's again after that.
+void PictureView::end_clicks(int key) {
+  if (key == Qt::Key_Return || key == Qt::Key_Enter) drag_->release();
+  if (key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_Escape) set_drag(nullptr);
+}
+
 void PictureView::keyPressEvent(QKeyEvent* event) {
+  if (waits_for_click()) return end_clicks(event->key());
   switch (event->key()) {
     case Qt::Key_Up:
       return scroll(1);

@@ -93,6 +93,9 @@ class PictureView : public QWidget {
   virtual std::unique_ptr<Drag> begin_drag(const Pointer& pressed);
   void set_drag(std::unique_ptr<Drag> drag);
   [[nodiscard]] bool dragging() const { return drag_ != nullptr; }
+  void end_clicks(int key);
+  // Between two clicks of a gesture.
+  [[nodiscard]] bool waits_for_click() const { return drag_ && button_ == Qt::NoButton; }
   [[nodiscard]] bool pressed() const { return button_ != Qt::NoButton; }
 
   void paintEvent(QPaintEvent* event) override;
@@ -124,7 +127,9 @@ class PictureView : public QWidget {
   engine::PictureFeed feed_;
   PictureSurface* surface_ = nullptr;  // covers the whole view
   std::unique_ptr<Drag> drag_;
-  Qt::MouseButton button_ = Qt::NoButton;  // that is held down
+  Qt::MouseButton button_ = Qt::NoButton;        // that is held down
+  Qt::MouseButton first_button_ = Qt::NoButton;  // of the drag
+  engine::Tool tool_of_drag_{};
   QPointF mouse_;
   QPointF pressed_at_;
   bool may_be_click_ = false;  // the right button is down, and the mouse has not moved yet

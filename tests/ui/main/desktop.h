@@ -45,7 +45,7 @@ class Desktop {
 
   [[nodiscard]] ui::MainWindow& window() { return languages_ ? languages_->window() : *window_; }
   [[nodiscard]] engine::Engine& engine() { return *engine_; }
-  [[nodiscard]] engine::CaseProxy& proxy() { return window_->active_case()->proxy(); }
+  [[nodiscard]] engine::CaseProxy& proxy() { return window().active_case()->proxy(); }
   [[nodiscard]] const engine::CaseState& state() { return proxy().state(); }
 
   // Opens and waits until the first pictures are there.
@@ -54,7 +54,7 @@ class Desktop {
   // A view of the active case by its title; the test fails if it is not there.
   template <class View>
   View* view(const QString& title = {}) {
-    for (ui::PictureView* view : window_->active_case()->views()) {
+    for (ui::PictureView* view : window().active_case()->views()) {
       auto* wanted = qobject_cast<View*>(view);
       if (wanted && wanted->isVisible() && (title.isEmpty() || wanted->title() == title)) return wanted;
     }

@@ -23,6 +23,7 @@ class FinishLabelsStoryTest : public QObject {
   void a_tool_works_on_the_case_that_is_seen();
   void the_brush_paints_the_chosen_label_and_no_other();
   void an_outline_takes_what_it_goes_around();
+  void a_polygon_is_drawn_by_clicks();
   void a_label_is_chosen_where_it_is_seen();
 
  private:
@@ -234,6 +235,55 @@ void FinishLabelsStoryTest::an_outline_takes_what_it_goes_around() {
   desktop.drag(*axial, {corner(-25.0, 0.0), corner(-15.0, 0.0)});
   desktop.wait_until_idle();
   QVERIFY(region(desktop, 1).count() > square.count());
+}
+
+void FinishLabelsStoryTest::a_polygon_is_drawn_by_clicks() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  const glm::dvec3 seed = desktop.seed_mm();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  QVERIFY(axial);
+  click(desktop, panel, "Outline");
+  const auto place = [&](double x, double y) {
+    return axial->position_of(seed + glm::dvec3(x, y, 0.0)).toPoint();
+  };
+  const auto click_at = [&](QPoint at) {
+    QTest::mouseMove(axial, at);
+    QTest::mouseClick(axial, Qt::LeftButton, {}, at);
+  };
+  const QList<QPoint> corners{place(-10.2, -10.2), place(10.2, -10.2), place(10.2, 10.2), place(-10.2, 10.2)};
+  for (const QPoint corner : corners) click_at(corner);
+  QTest::mouseMove(axial, place(-16.0, 0.0));
+  desktop.screenshot("outline-1-polygon");
+  QVERIFY(desktop.state().labels.empty());  // until it is closed
+  // Another tool, Escape and the wheel end nothing by accident: the polygon goes, and nothing is painted.
+  QTest::keyClick(axial, Qt::Key_Escape);
+  desktop.wait_until_idle();
+  QVERIFY(desktop.state().labels.empty());
+
+  for (const QPoint corner : corners) click_at(corner);
+  QTest::mouseDClick(axial, Qt::LeftButton, {}, corners.back());
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region square = region(desktop, 1);
+  QVERIFY2(std::abs(static_cast<double>(square.count()) - 20.4 * 20.4) < 45.0,
+           qPrintable(QString::number(square.count())));
+  // The first corner closes it as well, and so does Return.
+  const auto undo = [&] {
+    desktop.press(Qt::Key_Z, Qt::ControlModifier);
+    desktop.wait_until_idle();
+  };
+  undo();
+  for (const QPoint corner : corners) click_at(corner);
+  click_at(corners.front());
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == square);
+  undo();
+  for (const QPoint corner : corners) click_at(corner);
+  QTest::keyClick(axial, Qt::Key_Return);
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == square);
 }
 
 void FinishLabelsStoryTest::a_label_is_chosen_where_it_is_seen() {
