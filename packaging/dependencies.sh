@@ -15,10 +15,11 @@ tidemark_packages=(
 if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then tidemark_packages+=(libqt6opengl6-dev); fi
 
 # Only tests need these: a screen that nobody sees, other readers and validators of DICOM, PACS servers, what makes and
-# looks at the Debian package, a second compiler with its sanitizers, and the reference compiler of shaders.
+# looks at the Debian package, a second compiler with its sanitizers, the reference compiler of shaders, and what makes the
+# handbook's HTML.
 tidemark_test_packages=(
   xvfb xauth locales python3-pydicom python3-numpy dicom3tools dcm2niix plastimatch orthanc dcmtk openssl
-  dpkg-dev file clang libclang-rt-dev glslang-tools
+  dpkg-dev file clang libclang-rt-dev glslang-tools python3-sphinx python3-myst-parser
 )
 
 # Only ./test --long needs these.

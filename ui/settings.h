@@ -1,6 +1,6 @@
 // The settings that the desktop keeps from one run to the next: each with its name, its type and its first
 // value. The list of recent studies keeps itself (RecentStudies). A site's administrator may give first
-// values for all users, and lock them: docs/how-to/site.md.
+// values for all users, and lock them: handbook/for-it.md.
 #pragma once
 
 #include <QByteArray>

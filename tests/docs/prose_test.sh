@@ -22,7 +22,7 @@ complain "Headers that begin with a question or a verb instead of a noun phrase:
 
 phrases='(is|are|was|were|be|been) told( of| about)?\b|it is told|(is|are) taken (as|for) |more than is taken|what is (told|taken|followed)'
 complain "Phrases on pages:" \
-  "$(grep -nEi "$phrases" README.md CHANGELOG.md CONTRIBUTING.md packaging/man/* $(find docs -name '*.md') || true)"
+  "$(grep -nEi "$phrases" README.md CHANGELOG.md CONTRIBUTING.md packaging/man/* $(find docs handbook -name '*.md') || true)"
 complain "Phrases in messages:" "$(find app core document engine imaging renderer solver ui -name '*.cpp' -print0 |
   xargs -0 grep -nEi "\"[^\"]*($phrases)" || true)"
 exit "$failed"

@@ -1,4 +1,4 @@
-// The page about lessons (docs/how-to/teach.md): its example works, and it names all that a lesson can have.
+// The page about lessons (handbook/lessons.md): its example works, and it names all that a lesson can have.
 #include <QFile>
 #include <QRegularExpression>
 
@@ -12,7 +12,7 @@ namespace tidemark::test::lesson_page_test {
 namespace {
 
 QString page() {
-  QFile file(QStringLiteral(TIDEMARK_SOURCE "/docs/how-to/teach.md"));
+  QFile file(QStringLiteral(TIDEMARK_SOURCE "/handbook/lessons.md"));
   if (!file.open(QIODevice::ReadOnly)) qFatal("the page cannot be read");
   return QString::fromUtf8(file.readAll());
 }
@@ -36,7 +36,7 @@ class LessonPageTest : public QObject {
 
  private slots:
   void the_example_is_a_lesson_that_comes_out() {
-    const auto lesson = document::Lesson::parse(example(), "teach.md");
+    const auto lesson = document::Lesson::parse(example(), "lessons.md");
     QCOMPARE(failure(lesson), QString());
     QCOMPARE(lesson->parts.size(), std::size_t{4});
     const auto outcomes = document::carry_out(*lesson, {}, solver::ExecutorKind::host, {});

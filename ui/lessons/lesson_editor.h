@@ -22,6 +22,8 @@
 #include "ui/lessons/part_list.h"
 #include "ui/widgets/work_line.h"
 
+class QBoxLayout;
+
 namespace tidemark::engine {
 class CaseProxy;
 }

@@ -272,7 +272,9 @@ void Actions::make_windows() {
   lock_step = make("lock-step", "lockstep", tr("&Play in lock-step"), QKeySequence("Ctrl+L"), false,
                    tr("All cases play and step together, always at the same step"));
   lock_step->setCheckable(true);
-  first_steps = make("first-steps", "info", tr("&First steps and mouse"), QKeySequence("F1"), false);
+  handbook = make("handbook", "handbook", tr("&Handbook"), QKeySequence("F1"), false,
+                  tr("Open the handbook at the page of the panel or dialog that has the keyboard"));
+  first_steps = make("first-steps", "info", tr("&First steps and mouse"), QKeySequence("Shift+F1"), false);
   about = make("about", "about", tr("&About Tidemark"), {}, false);
 }
 

@@ -84,6 +84,7 @@ class Actions : public QObject {
   QAction* link;
   QAction* lock_step;
   // Help.
+  QAction* handbook;
   QAction* first_steps;
   QAction* about;
 

@@ -32,6 +32,7 @@
 #include "ui/main/film_writer.h"
 #include "ui/main/first_steps.h"
 #include "ui/main/focus_chain.h"
+#include "ui/main/help.h"
 #include "ui/main/image_adder.h"
 #include "ui/main/keys_dialog.h"
 #include "ui/main/leak_message.h"
@@ -450,6 +451,7 @@ void MainWindow::follow_closing() {
 }
 
 void MainWindow::connect_help() {
+  help_ = new Help(*this);
   connect(actions_->keys, &QAction::triggered, this, [this] { KeysDialog(*actions_, this).exec(); });
   connect(actions_->first_steps, &QAction::triggered, this, [this] { show_first_steps(this, *actions_); });
   connect(actions_->about, &QAction::triggered, this, [this] { AboutDialog(this).exec(); });

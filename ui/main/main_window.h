@@ -25,6 +25,7 @@ class FilmWriter;
 class CaseFiles;
 class CaseLinks;
 class CaseResults;
+class Help;
 class ImageAdder;
 class MessageBar;
 class PanelDocks;
@@ -74,6 +75,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] ImageAdder& images() { return *images_; }
   [[nodiscard]] CaseResults& results() { return *results_; }
   [[nodiscard]] Teaching& teaching() { return *teaching_; }
+  [[nodiscard]] Help& help() { return *help_; }
   // The executor of new cases.
   void set_executor(solver::ExecutorKind kind) { executor_ = kind; }
   // Shows a sentence until it is dismissed, the next one comes, or its subject has succeeded.
@@ -138,6 +140,7 @@ class MainWindow : public QMainWindow {
   CaseResults* results_ = nullptr;
   ImageAdder* images_ = nullptr;
   Teaching* teaching_ = nullptr;
+  Help* help_ = nullptr;
   QPointer<CaseWindow> active_;
   bool quitting_ = false;
   QList<QMetaObject::Connection> active_connections_;

@@ -92,7 +92,7 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   windows->addSeparator();
   windows->addActions({actions.link, actions.lock_step});
   QMenu* help = window.menuBar()->addMenu(MainWindow::tr("&Help"));
-  help->addActions({actions.first_steps, actions.about});
+  help->addActions({actions.handbook, actions.first_steps, actions.about});
 }
 
 void make_tool_bar(MainWindow& window, Actions& actions) {

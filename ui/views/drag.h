@@ -57,7 +57,7 @@ class Drag {
   DragView view_;
 };
 
-// The gesture of a button in any view (docs/user-interface.md). None where there is nothing to do, as for a
+// The gesture of a button in any view (handbook/window.md). None where there is nothing to do, as for a
 // tool that needs a point of the patient and has none.
 std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer& pressed);
 std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed);

@@ -73,8 +73,8 @@ class ConformanceTest : public QObject {
     if (const char* target = std::getenv("TIDEMARK_WRITE_TABLE"))
       QVERIFY(write_file(target, page.substr(0, begin) + tables()).has_value());
     QVERIFY2(page.substr(begin) == tables() || std::getenv("TIDEMARK_WRITE_TABLE") != nullptr,
-             "docs/conformance.md is not what the code does; to write it again:\n"
-             "  TIDEMARK_WRITE_TABLE=docs/conformance.md build/release/tests/pacs_tests conformance_test");
+             "handbook/conformance.md is not what the code does; to write it again:\n"
+             "  TIDEMARK_WRITE_TABLE=handbook/conformance.md build/release/tests/pacs_tests conformance_test");
   }
 
   void every_class_and_encoding_has_a_name() {

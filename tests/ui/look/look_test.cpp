@@ -32,7 +32,7 @@ const QStringList kNames =
         "link lock "
         "unlock eye eye-off add remove duplicate colour camera reset-view maximise full-screen settings "
         "about warning "
-        "info target curve label statistics keyboard theme-light theme-dark lockstep")
+        "handbook info target curve label statistics keyboard theme-light theme-dark lockstep")
         .split(QLatin1Char(' '));
 
 QImage drawn(const QString& name, int side, QIcon::Mode mode = QIcon::Normal) {

@@ -1,5 +1,5 @@
-// The guide's first minute (docs/user-first-minute.md) as it is written, and the layouts in both themes
-// (docs/user-interface.md). With TIDEMARK_SCREENSHOTS it leaves the pictures of both pages.
+// The guide's first minute (handbook/first-page.md) as it is written, and the layouts in both themes
+// (handbook/window.md). With TIDEMARK_SCREENSHOTS it leaves the pictures of both pages.
 #include <QApplication>
 #include <QMessageBox>
 #include <QPushButton>

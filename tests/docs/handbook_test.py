@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""handbook_test.py SOURCE [SPHINX_BUILD]
+
+Holds the handbook to the program and to itself: every panel has a page under its key and no page is of none, every page
+is in the contents, every link within handbook, docs and the pages at the top leads somewhere, every picture is used and
+small. With SPHINX_BUILD it also builds the HTML, with warnings as errors, and follows every link from its first page.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import urllib.parse
+from html.parser import HTMLParser
+from pathlib import Path
+
+source = Path(sys.argv[1]).resolve()
+book = source / "handbook"
+faults = []
+
+LARGEST_PICTURE = 160_000
+ALL_PICTURES = 4_000_000
+
+
+def words_of(heading):
+    """The anchor that GitHub and MyST make of a heading."""
+    text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
+    text = re.sub(r"[^\w\- ]", "", text)
+    return text.replace(" ", "-")
+
+
+def without_code(text):
+    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    return re.sub(r"`[^`\n]*`", "", text)
+
+
+def anchors(page):
+    text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S)
+    return {words_of(line.lstrip("#").replace("`", "")) for line in text.splitlines() if re.match(r"#+ ", line)}
+
+
+def check_panels():
+    docks = (source / "ui/main/panel_docks.cpp").read_text()
+    keys = set(re.findall(r'\badd\("([a-z-]+)", tr\(', docks))
+    keys |= set(re.findall(r'dock_->setObjectName\("([a-z-]+)"\)', (source / "ui/main/teaching.cpp").read_text()))
+    if len(keys) < 10 or "lesson" not in keys:
+        faults.append(f"few panels found in the code: {sorted(keys)}")
+    pages = {page.stem for page in (book / "panels").glob("*.md")}
+    for key in sorted(keys ^ pages):
+        faults.append(f"panels/{key}.md: {'there is no such panel' if key in pages else 'is missing'}")
+
+
+def check_contents():
+    entries = re.findall(r"^[a-z][a-z/-]*$", (book / "index.md").read_text(), flags=re.M)
+    pages = {str(page.relative_to(book))[:-3] for page in book.rglob("*.md")} - {"index"}
+    for page in sorted(pages ^ set(entries)):
+        faults.append(f"index.md: {page} is {'not in the contents' if page in pages else 'no page'}")
+    for page in re.findall(r'QStringLiteral\("([a-z-]+)"\)', (source / "ui/main/help.cpp").read_text()):
+        if page not in pages:
+            faults.append(f"ui/main/help.cpp: there is no page {page}")
+
+
+def check_links():
+    used = set()
+    pages = [*book.rglob("*.md"), *(source / "docs").rglob("*.md"), *source.glob("*.md")]
+    for page in pages:
+        for target in re.findall(r"\]\(([^)\s]+)\)|src=\"([^\"]+)\"", without_code(page.read_text())):
+            target = target[0] or target[1]
+            if re.match(r"[a-z]+:", target):
+                continue
+            name, _, anchor = target.partition("#")
+            to = (page.parent / name).resolve() if name else page
+            where = f"{page.relative_to(source)}: {target}"
+            if not to.exists():
+                faults.append(f"{where} does not exist")
+                continue
+            used.add(to)
+            if anchor and urllib.parse.unquote(anchor) not in anchors(to):
+                faults.append(f"{where}: there is no such heading")
+            if page.is_relative_to(book) and not to.is_relative_to(book):
+                faults.append(f"{where} leads out of the handbook, which is installed alone")
+    pictures = list((book / "pictures").glob("*"))
+    for picture in pictures:
+        if picture not in used:
+            faults.append(f"{picture.relative_to(source)} is on no page")
+        if picture.stat().st_size > LARGEST_PICTURE:
+            faults.append(f"{picture.relative_to(source)} has {picture.stat().st_size} bytes")
+    if sum(picture.stat().st_size for picture in pictures) > ALL_PICTURES:
+        faults.append("handbook/pictures is too large")
+
+
+class Links(HTMLParser):
+    def __init__(self, page):
+        super().__init__()
+        self.links, self.ids = [], set()
+        self.feed(page.read_text())
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        for name in ("href", "src"):
+            # "#" is Sphinx's link to the page itself.
+            if attributes.get(name) and attributes[name] != "#":
+                self.links.append(attributes[name])
+        self.ids |= {attributes[name] for name in ("id", "name") if attributes.get(name)}
+
+
+def check_html(sphinx):
+    with tempfile.TemporaryDirectory() as folder:
+        html = Path(folder) / "html"
+        built = subprocess.run([sphinx, "-W", "--keep-going", "-q", "-d", f"{folder}/trees", "-b", "html", book, html],
+                               capture_output=True, text=True)
+        if built.returncode:
+            faults.append(f"sphinx-build fails:\n{built.stderr}")
+            return
+        known, waiting = {}, [html / "index.html"]
+        while waiting:
+            page = waiting.pop()
+            if page in known:
+                continue
+            known[page] = Links(page)
+            for link in known[page].links:
+                if re.match(r"[a-z]+:", link):
+                    continue
+                to = (page.parent / urllib.parse.unquote(link.partition("#")[0].partition("?")[0])).resolve()
+                if not to.exists():
+                    faults.append(f"{page.name}: {link} does not exist")
+                elif to.suffix == ".html":
+                    waiting.append(to)
+        for page, parsed in known.items():
+            for link in parsed.links:
+                name, _, anchor = link.partition("#")
+                to = (page.parent / name).resolve() if name else page
+                if anchor and to in known and urllib.parse.unquote(anchor) not in known[to].ids:
+                    faults.append(f"{page.name}: {link}: there is no such place")
+        for page in html.rglob("*.html"):
+            if page not in known and "_static" not in page.parts:
+                faults.append(f"{page.relative_to(html)} cannot be reached from the first page")
+        if not (html / "searchindex.js").exists():
+            faults.append("there is no search")
+
+
+check_panels()
+check_contents()
+check_links()
+if len(sys.argv) > 2:
+    check_html(sys.argv[2])
+if faults:
+    print("\n".join(faults))
+    sys.exit(1)
