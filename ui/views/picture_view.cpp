@@ -68,6 +68,7 @@ PictureView::PictureView(engine::CaseProxy& proxy, QWidget* parent)
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
+  setLayoutDirection(Qt::LeftToRight);  // left and right are the patient's, however people write
   if (proxy.engine().pictures() == engine::Engine::Pictures::textures) {
     surface_ = new PictureSurface(
         feed_, [this](QPainter& painter) { paint_all(painter); }, this);
@@ -92,6 +93,7 @@ renderer::PictureSize PictureView::physical_size() const {
 
 QImage PictureView::grab_picture() {
   const auto paint = [this](QPainter& painter) {
+    painter.setLayoutDirection(Qt::LeftToRight);  // left and right are the patient's
     painter.setRenderHint(QPainter::Antialiasing);
     paint_picture(painter);
     paint_overlay(painter);
@@ -144,6 +146,7 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
 }
 
 void PictureView::paint_all(QPainter& painter) {
+  painter.setLayoutDirection(Qt::LeftToRight);
   painter.setRenderHint(QPainter::Antialiasing);
   paint_picture(painter);
   paint_overlay(painter);

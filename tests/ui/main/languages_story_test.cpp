@@ -184,6 +184,15 @@ class LanguagesStoryTest : public QObject {
     desktop.wait_until_idle();
     desktop.window().panels().show("level-set");
     desktop.screenshot("language-" + name + "-steered");
+    // Left and right in pictures are the patient's, in whatever direction people write.
+    for (ui::PictureView* view : desktop.window().active_case()->views()) {
+      const QImage picture = view->grab_picture();
+      const QImage on_screen = view->grab().toImage();
+      QApplication::setLayoutDirection(Qt::LeftToRight);
+      QVERIFY2(view->grab_picture() == picture, qPrintable(view->title()));
+      QVERIFY2(view->grab().toImage() == on_screen, qPrintable(view->title()));
+      if (mirrored) QApplication::setLayoutDirection(Qt::RightToLeft);
+    }
     QCOMPARE(doubled_menu_letters(desktop.window()).join("; "), QString());
     QCOMPARE(cut_bars(desktop.window()).join("; "), QString());
     QCOMPARE(panels_too_wide(desktop, name).join("; "), QString());
