@@ -53,8 +53,6 @@ for program in tidemark tidemark-cli; do install -m 755 "$staging/usr/bin/$progr
 install -m 755 "$tidemark_root/packaging/bundle/launcher.sh" "$root/bin/tidemark"
 ln -s tidemark "$root/bin/tidemark-cli"
 cp -r "$staging/usr/share/." "$root/share"
-rm -f "$root"/share/doc/tidemark/{copyright,changelog.gz}
-cp "$tidemark_root/LICENSE" "$tidemark_root/CHANGELOG.md" "$root/share/doc/tidemark"
 printf '[Paths]\nPrefix=..\nPlugins=plugins\nTranslations=translations\n' >"$root/libexec/qt.conf"
 for file in dicom.dic private.dic; do
   dictionary=$(ls -d /usr/share/libdcmtk*/"$file") || fail "DCMTK's $file is not there"
