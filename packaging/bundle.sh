@@ -122,10 +122,9 @@ echo "== Licences"
 # Of packages with files here, and of those whose headers are part of the programs.
 headers=(libglm-dev libexpected-dev nlohmann-json3-dev libcli11-dev)
 boost=$(dpkg-query -W -f '${Depends}' libboost-dev) && headers+=("${boost%% *}")
-cut -f 2 "$origins" | sort -u | while read -r file; do
-  owner=$(dpkg-query -S "$file" 2>/dev/null || dpkg-query -S "${file#/usr}" 2>/dev/null) || fail "no package owns $file"
-  echo "${owner%%:*}"
-done | sort -u >"$staging/packages"
+# dpkg may know a file by its path before /lib became a link. sbom.py finds out if a file is nobody's.
+cut -f 2 "$origins" | sed -E 'p; s|^/usr||' | sort -u | { xargs dpkg-query -S 2>/dev/null || :; } |
+  sed 's/[:,].*//' | sort -u >"$staging/packages"
 printf '%s\n' "${headers[@]}" | sort -u - "$staging/packages" | while read -r package; do
   install -D -m 644 "$(readlink -f "/usr/share/doc/$package/copyright")" "$root/share/doc/licences/$package/copyright"
 done

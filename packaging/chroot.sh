@@ -31,12 +31,14 @@ tidemark_chroot() {
 }
 
 # tidemark_inside FOLDER COMMAND...: the command in that system, as its root, with processes and mounts of its own, which
-# end with it.
+# end with it; without a network where TIDEMARK_OFFLINE is set.
 tidemark_inside() {
   local folder=$1
+  local -a apart=(--mount --pid --ipc)
   shift
+  if [[ -n ${TIDEMARK_OFFLINE:-} ]]; then apart+=(--net); fi
   # shellcheck disable=SC2016  # for the inner shell
-  unshare --mount --pid --ipc --fork --kill-child -- sh -c '
+  unshare "${apart[@]}" --fork --kill-child -- sh -c '
     mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" "$@"' "$folder" \
     env -i HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
     PATH=/usr/sbin:/usr/bin:/sbin:/bin SOURCE_DATE_EPOCH="${SOURCE_DATE_EPOCH:-}" "$@"
