@@ -45,7 +45,7 @@ fi
 
 # as_user COMMAND...: in $system, without a network.
 as_user() {
-  TIDEMARK_OFFLINE=1 tidemark_inside "$system" setpriv --reuid 1000 --regid 1000 --clear-groups env HOME=/home/user "$@"
+  tidemark_inside --offline "$system" setpriv --reuid 1000 --regid 1000 --clear-groups env HOME=/home/user "$@"
 }
 
 try_without_x() {

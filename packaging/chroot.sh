@@ -30,13 +30,16 @@ tidemark_chroot() {
     >"$2/etc/apt/apt.conf.d/90tidemark"
 }
 
-# tidemark_inside FOLDER COMMAND...: the command in that system, as its root, with processes and mounts of its own, which
-# end with it; without a network where TIDEMARK_OFFLINE is set.
+# tidemark_inside [--offline] FOLDER COMMAND...: the command in that system, as its root, with processes and mounts of its own, which
+# end with it; with --offline without a network.
 tidemark_inside() {
-  local folder=$1
   local -a apart=(--mount --pid --ipc)
+  if [[ $1 == --offline ]]; then
+    apart+=(--net)
+    shift
+  fi
+  local folder=$1
   shift
-  if [[ -n ${TIDEMARK_OFFLINE:-} ]]; then apart+=(--net); fi
   # shellcheck disable=SC2016  # for the inner shell
   unshare "${apart[@]}" --fork --kill-child -- sh -c '
     mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" "$@"' "$folder" \

@@ -8,6 +8,7 @@
 set -euo pipefail
 
 tidemark_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$tidemark_root/packaging/build.sh"
 source "$tidemark_root/packaging/version.sh"
 source "$tidemark_root/packaging/chroot.sh"
 source "$tidemark_root/packaging/dependencies.sh"
@@ -92,7 +93,7 @@ tidemark_inside "$clean" sh -ec 'apt-get update -q && apt-get install -y -q buil
   >>"$out/log" 2>&1 || { tail -n 40 "$out/log"; fail "what is needed could not be installed"; }
 echo "== Compiling (build/package/deb/log)"
 tidemark_inside "$clean" sh -ec "cd /build && dpkg-source -x ./*.dsc source && cd source &&
-  DEB_BUILD_OPTIONS=parallel=${TIDEMARK_JOBS:-$(nproc)} nice -n 19 dpkg-buildpackage -b -us -uc" >>"$out/log" 2>&1 || {
+  DEB_BUILD_OPTIONS=parallel=$(tidemark_jobs) nice -n 19 dpkg-buildpackage -b -us -uc" >>"$out/log" 2>&1 || {
   tail -n 40 "$out/log"
   fail "it does not compile in a clean system"
 }
