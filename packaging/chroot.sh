@@ -13,7 +13,7 @@ tidemark_suite() {
   fi
   if [[ -s $kept/$suite.tar ]]; then return 0; fi
   mkdir -p "$kept"
-  mmdebstrap --variant=minbase --mode=root "$suite" "$kept/$suite.part" "${sources[@]}" >"$kept/$suite.log" 2>&1 </dev/null || {
+  mmdebstrap --variant=minbase --mode=root --include=apt "$suite" "$kept/$suite.part" "${sources[@]}" >"$kept/$suite.log" 2>&1 </dev/null || {
     rm -f "$kept/$suite.part"
     return 1
   }
