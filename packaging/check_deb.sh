@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the Debian packages from build/release, installs an older version of them in this system and then these, tries what
 # was installed, removes and purges it, and looks that nothing is left. Needs root; what cannot be tried here is said.
-# Leaves build/package/deb/*.deb.
+# Leaves build/package/deb-tried/*.deb.
 #   check_deb.sh [BUILD]   another finished build, which is taken as it is
 set -euo pipefail
 
@@ -10,7 +10,7 @@ source "$tidemark_root/packaging/build.sh"
 source "$tidemark_root/packaging/version.sh"
 source "$tidemark_root/packaging/phantom.sh"
 build=${1:-$tidemark_root/build/release}
-debs=$tidemark_root/build/package/deb
+debs=$tidemark_root/build/package/deb-tried
 packages=(tidemark tidemark-cli tidemark-doc)
 
 skip() {

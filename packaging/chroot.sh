@@ -13,11 +13,11 @@ tidemark_suite() {
   fi
   if [[ -s $kept/$suite.tar ]]; then return 0; fi
   mkdir -p "$kept"
-  mmdebstrap --variant=minbase --mode=root --include=apt "$suite" "$kept/$suite.part" "${sources[@]}" >"$kept/$suite.log" 2>&1 </dev/null || {
-    rm -f "$kept/$suite.part"
+  mmdebstrap --variant=minbase --mode=root --include=apt "$suite" "$kept/$suite.part.tar" "${sources[@]}" >"$kept/$suite.log" 2>&1 </dev/null || {
+    rm -f "$kept/$suite.part.tar"
     return 1
   }
-  mv "$kept/$suite.part" "$kept/$suite.tar"
+  mv "$kept/$suite.part.tar" "$kept/$suite.tar"
 }
 
 # tidemark_chroot SUITE FOLDER: a new system in FOLDER, with this system's way to the mirrors.
