@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# oci.sh: an OCI image of tidemark-cli, for clusters and pipelines: Debian 12's smallest system with the Debian package
-# (deb.sh makes it first) and what it depends on. Leaves build/package/tidemark-cli-VERSION-oci.tar, which
+# oci.sh [DEB]: an OCI image of tidemark-cli, for clusters and pipelines: Debian 12's smallest system with the Debian package
+# (default: the one that deb.sh left) and what it depends on. Leaves build/package/tidemark-cli-VERSION-oci.tar, which
 # `podman load`, `docker load` and `skopeo copy oci-archive:` take. It needs no network when it runs.
 # Needs root, mmdebstrap and umoci. Tries the image's own root by chroot; no container engine is asked.
 set -euo pipefail
@@ -18,7 +18,7 @@ fail() {
 }
 ((EUID == 0)) || fail "a system in a folder needs root"
 for tool in mmdebstrap umoci cmake; do command -v "$tool" >/dev/null || fail "there is no $tool here"; done
-deb=$(ls "$out"/deb/tidemark-cli_*.deb) || fail "there is no Debian package; deb.sh makes it"
+deb=$(realpath -e "${1:-$out/deb/tidemark-cli_${tidemark_version}_amd64.deb}") || fail "there is no Debian package; deb.sh makes it"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -39,7 +39,7 @@ Requires: glibc >= $glibc
 %global use_source_date_epoch_as_buildtime 1
 %global clamp_mtime_to_source_date_epoch 1
 %global _buildhost localhost
-%global _binary_payload w6.xzdio
+%global _binary_payload w6T2.xzdio
 
 %description
 Tidemark segments CT and MR volumes with a level set: a surface that grows from a seed while the brightness around it
