@@ -12,7 +12,7 @@ case ${0##*/} in
   *) program=tidemark ;;
 esac
 
-data=${XDG_DATA_HOME:-$HOME/.local/share}
+data=${XDG_DATA_HOME:-${HOME:-}/.local/share}
 
 # What is in the menu, below share/ here and below $data there.
 menu_files() {
@@ -34,8 +34,8 @@ install_menu() {
     mkdir -p "$(dirname "$data/$file")"
     cp "$root/share/$file" "$data/$file"
   done
-  # The desktop entry's own quoting: in quotation marks, and these four with a backslash, which is written twice.
-  quoted=$(printf '%s' "$root/bin/tidemark" | sed -e 's/[\\"`$]/\\\\&/g' -e 's/%/%%/g')
+  # The desktop entry's own quoting: in quotation marks, and these four with a backslash. Then each backslash is doubled.
+  quoted=$(printf '%s' "$root/bin/tidemark" | sed -e 's/[\\"`$]/\\&/g' -e 's/\\/\\\\/g' -e 's/%/%%/g')
   EXEC="Exec=\"$quoted\" %F" awk '/^Exec=/ { print ENVIRON["EXEC"]; next } { print }' \
     "$root/share/applications/tidemark.desktop" >"$data/applications/tidemark.desktop"
   tell_desktop
@@ -60,27 +60,28 @@ fi
 known=$(for tool in /sbin/ldconfig /usr/sbin/ldconfig; do
   if [ -x "$tool" ]; then "$tool" -p; break; fi
 done | grep x86-64 || :)
-own=$(
-  {
-    cat "$root/lib/shared/versions"
-    echo
-    printf '%s\n' "$known" | awk 'NR == FNR { wanted[$1]; next } $1 in wanted && !seen[$1]++ { print $1, $NF }' \
-      "$root/lib/shared/versions" - | while read -r name path; do
-      real=$(readlink -f "$path") && [ -f "$real" ] && echo "$name ${real##*/}"
-    done
-  } | awk '
-    function older(a, b,   x, y, n, i) {
-      sub(/^.*\.so\./, "", a); sub(/^.*\.so\./, "", b)
-      n = split(b, y, "."); split(a, x, ".")
-      for (i = 1; i <= n; i++) if (x[i] + 0 != y[i] + 0) return x[i] + 0 < y[i] + 0
-      return 0
-    }
-    NF == 0 { host = 1; next }
-    !host { order[++count] = $1; version[$1] = $2; next }
+hosts=$(printf '%s\n' "$known" | awk 'NR == FNR { wanted[$1]; next } $1 in wanted && !seen[$1]++ { print $1, $NF }' \
+  "$root/lib/shared/versions" -)
+# The names that links lead to hold the versions. All at once, as a program a library would take long.
+real=$(printf '%s\n' "$hosts" | awk '{ print $2 }' | xargs readlink -f 2>/dev/null || :)
+own=$(printf '%s\n\n%s\n\n%s\n' "$(cat "$root/lib/shared/versions")" "$hosts" "$real" | awk '
+  function older(a, b,   x, y, n, i) {
+    sub(/^.*\.so\./, "", a); sub(/^.*\.so\./, "", b)
+    n = split(b, y, "."); split(a, x, ".")
+    for (i = 1; i <= n; i++) if (x[i] + 0 != y[i] + 0) return x[i] + 0 < y[i] + 0
+    return 0
+  }
+  NF == 0 { part++; next }
+  part == 0 { order[++count] = $1; version[$1] = $2; next }
+  part == 1 { host[++hosts] = $1; next }
+  { sub(/^.*\//, ""); file[++files] = $0 }
+  END {
     # A name without a version says nothing; the host is believed.
-    { has[$1] = $2 !~ /\.so\./ || $2 == $1 || !older($2, version[$1]) }
-    END { for (i = 1; i <= count; i++) if (!has[order[i]]) print order[i] }'
-)
+    if (files == hosts)
+      for (i = 1; i <= hosts; i++)
+        has[host[i]] = file[i] !~ /\.so\./ || file[i] == host[i] || !older(file[i], version[host[i]])
+    for (i = 1; i <= count; i++) if (!has[order[i]]) print order[i]
+  }')
 folders=
 for name in $own; do folders=$folders$root/lib/shared/$name:; done
 
