@@ -51,13 +51,7 @@ umoci config --image "$layout:$tidemark_version" --created "$when" --architectur
   --history.created "$when" --history.created_by "packaging/oci.sh"
 umoci gc --layout "$layout"
 
-tar -C "$layout" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --format=gnu \
-  -cf "$image" oci-layout index.json blobs
-
 echo "== Trying it"
-if command -v skopeo >/dev/null; then
-  skopeo inspect "oci-archive:$image" | grep -E '"(Architecture|Os|Created)"'
-fi
 rm -rf "$work/bundle"
 umoci unpack --image "$layout:$tidemark_version" "$work/try"
 system=$work/try/rootfs
@@ -71,4 +65,12 @@ inside segment /work/tumour/series "${options[@]}" --truth /work/tumour/truth.ni
   --stats /work/statistics.json >/dev/null
 tidemark_phantom_result "$system/work/statistics.json" || fail "not the phantom's figures"
 echo "Tried in the image's root by chroot, as user 1000, without a network."
+
+# The name that engines give it.
+sed -i "s|\"org.opencontainers.image.ref.name\":\"$tidemark_version\"|\"org.opencontainers.image.ref.name\":\"tidemark-cli:$tidemark_version\"|" \
+  "$layout/index.json"
+grep -q "tidemark-cli:$tidemark_version" "$layout/index.json" || fail "the image has no name"
+tar -C "$layout" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --format=gnu \
+  -cf "$image" oci-layout index.json blobs
+if command -v skopeo >/dev/null; then skopeo inspect "oci-archive:$image" | grep -E '"(Architecture|Os|Created)"'; fi
 ls -l "$image"
