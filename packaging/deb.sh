@@ -38,6 +38,15 @@ while (($# > 0)); do
 done
 for tool in dpkg-buildpackage dh; do command -v "$tool" >/dev/null || fail "there is no $tool here"; done
 
+# One list of what a build needs, and the other: both are right.
+for package in "${tidemark_packages[@]}"; do
+  case $package in
+    # Debian's own, or needed by running alone.
+    g++ | ccache | libegl1 | libgl1 | libgl1-mesa-dri) continue ;;
+  esac
+  grep -qE "^ $package\b" "$tidemark_root/packaging/debian/control" || fail "debian/control does not ask for $package"
+done
+
 work=$(mktemp -d)
 chmod 755 "$work"
 trap 'rm -rf "$work"' EXIT
@@ -63,15 +72,6 @@ if [[ $mode == from ]]; then
   cp "$work"/*.deb "$out"
   exit
 fi
-
-# One list of what a build needs, and the other: both are right.
-for package in "${tidemark_packages[@]}"; do
-  case $package in
-    # Debian's own, or needed by running alone.
-    g++ | ccache | libegl1 | libgl1 | libgl1-mesa-dri) continue ;;
-  esac
-  grep -qE "^ $package\b" "$tidemark_root/packaging/debian/control" || fail "debian/control does not ask for $package"
-done
 
 echo "== The source package"
 git -C "$tidemark_root" archive HEAD | tar -x -C "$source"
