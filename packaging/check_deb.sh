@@ -1,61 +1,100 @@
 #!/usr/bin/env bash
-# Builds the Debian package from build/release, installs it in this system, tries what was installed, and removes it.
-# Needs root; what cannot be tried here is said. Leaves build/release/package/tidemark_*.deb.
+# Makes the Debian packages from build/release, installs an older version of them in this system and then these, tries what
+# was installed, removes and purges it, and looks that nothing is left. Needs root; what cannot be tried here is said.
+# Leaves build/package/deb-tried/*.deb.
+#   check_deb.sh [BUILD]   another finished build, which is taken as it is
 set -euo pipefail
 
 tidemark_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$tidemark_root/packaging/build.sh"
-build=$tidemark_root/build/release
+source "$tidemark_root/packaging/version.sh"
+source "$tidemark_root/packaging/phantom.sh"
+build=${1:-$tidemark_root/build/release}
+debs=$tidemark_root/build/package/deb-tried
+packages=(tidemark tidemark-cli tidemark-doc)
 
 skip() {
-  echo "!! SKIPPED: the Debian package was not tried: $*"
+  echo "!! SKIPPED: the Debian packages were not tried: $*"
   exit 0
 }
 fail() {
   echo "check_deb: $*" >&2
   exit 1
 }
-for tool in dpkg dpkg-shlibdeps apt-get; do command -v "$tool" >/dev/null || skip "there is no $tool here"; done
+for tool in dpkg-buildpackage dh apt-get; do command -v "$tool" >/dev/null || skip "there is no $tool here"; done
 ((EUID == 0)) || skip "installing needs root"
 # Somebody's own: neither replaced nor removed.
-if dpkg -s tidemark >/dev/null 2>&1; then skip "a package 'tidemark' is installed already"; fi
+for package in "${packages[@]}"; do
+  if dpkg -s "$package" >/dev/null 2>&1; then skip "a package '$package' is installed already"; fi
+done
 
-tidemark_build release tidemark_installed
-rm -rf "$build/package"
-echo "== Making the package"
-(cd "$build" && cpack -G DEB -B "$build/package" >"$build/package.log" 2>&1) || { cat "$build/package.log"; fail "cpack failed"; }
-deb=$(ls "$build"/package/*.deb)
-dpkg-deb -I "$deb" | sed -n '/Package:/,/Description:/p'
+if (($# == 0)); then tidemark_build release tidemark_installed; fi
+echo "== Making the packages"
+"$tidemark_root/packaging/deb.sh" --from "$build" --out "$debs"
+for deb in "$debs"/*.deb; do dpkg-deb -f "$deb" Package Version Depends; done
+
+if command -v lintian >/dev/null; then
+  echo "== lintian"
+  lintian --allow-root --fail-on error "$debs"/*.deb || fail "lintian finds errors"
+else
+  echo "!! lintian is not installed: the packages were not held against Debian's rules"
+fi
 
 work=$(mktemp -d)
 chmod 755 "$work"
+purge() { DEBIAN_FRONTEND=noninteractive dpkg --purge "${packages[@]}" >/dev/null 2>&1; }
 cleanup() {
   rm -rf "$work"
-  if dpkg -s tidemark >/dev/null 2>&1; then DEBIAN_FRONTEND=noninteractive dpkg --purge tidemark >/dev/null; fi
+  purge || true
 }
 trap cleanup EXIT
 
-echo "== Installing $(basename "$deb")"
-cp "$deb" "$work/tidemark.deb"
-DEBIAN_FRONTEND=noninteractive apt-get install -y -q -o Dpkg::Use-Pty=0 --no-install-recommends "$work/tidemark.deb"
+# Files of this system, without those that say of themselves that they change: dpkg's, apt's and other caches.
+files() {
+  find /etc /opt /usr /var -xdev \( -path /var/cache -o -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg \
+    -o -path /var/tmp -o -name __pycache__ \) -prune -o -print | LC_ALL=C sort
+}
+install() {
+  DEBIAN_FRONTEND=noninteractive apt-get install -y -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300 \
+    --no-install-recommends "$@" >"$work/apt.log" 2>&1 || { cat "$work/apt.log"; fail "apt-get install failed"; }
+}
+
+# What the packages bring along stays installed, so that it comes before the list of files.
+echo "== What the packages depend on"
+depends=$(for deb in "$debs"/*.deb; do dpkg-deb -f "$deb" Depends; done | tr ',' '\n' | sed -E 's/^ *//; s/[ (|].*//' |
+  grep -vE '^tidemark' | sort -u)
+mapfile -t missing < <(for package in $depends; do dpkg -s "$package" >/dev/null 2>&1 || echo "$package"; done)
+if ((${#missing[@]} > 0)); then install "${missing[@]}"; fi
+files >"$work/before"
+
+echo "== Installing the version before, then this one"
+mkdir "$work/old"
+for deb in "$debs"/*.deb; do
+  dpkg-deb -R "$deb" "$work/old/package"
+  sed -i -E "s/^Version: .*/Version: 0.0.1/; s/= $tidemark_version\)/= 0.0.1)/" "$work/old/package/DEBIAN/control"
+  dpkg-deb --root-owner-group -Z gzip -z 1 -b "$work/old/package" "$work/old/$(basename "$deb")" >/dev/null
+  rm -rf "$work/old/package"
+done
+install "$work"/old/*.deb
+[[ $(dpkg-query -W -f '${Version}' tidemark) == 0.0.1 ]] || fail "the older version is not installed"
+cp "$debs"/*.deb "$work"
+install "$work"/*.deb
+for package in "${packages[@]}"; do
+  [[ $(dpkg-query -W -f '${Version}' "$package") == "$tidemark_version" ]] || fail "$package was not upgraded"
+done
 
 # What is tried from here on is what was installed, and nothing of the build: PATH holds the system's folders alone.
-cmake=$(command -v cmake)
 export PATH=/usr/sbin:/usr/bin:/sbin:/bin
 cd "$work"
-value() { sed -nE "s/.*\"$2\": *([-0-9.e+]+).*/\1/p" "$1" | head -n 1; }
 
 echo "== Segmenting a phantom with the installed tidemark-cli"
 [[ $(command -v tidemark-cli) == /usr/bin/tidemark-cli ]] || fail "tidemark-cli is not in /usr/bin"
 tidemark-cli phantom tumour --out tumour >/dev/null
-read -r -a options < <("$cmake" -DJSON=tumour/phantom.json -P "$tidemark_root/packaging/phantom_options.cmake")
+read -r -a options < <(tidemark_phantom_options tumour/phantom.json)
 tidemark-cli segment tumour/series "${options[@]}" --truth tumour/truth.nii.gz --out mask.nii.gz --out surface.stl \
   --stats statistics.json
 for file in mask.nii.gz surface.stl; do [[ -s $file ]] || fail "$file was not written"; done
-dice=$(value statistics.json dice)
-volume=$(value statistics.json volume_ml)
-awk -v dice="$dice" -v volume="$volume" 'BEGIN { exit !(dice >= 0.98 && volume > 112 && volume < 119) }' ||
-  fail "the tumour has $volume ml (117.6 are right) and a Dice of $dice"
+tidemark_phantom_result statistics.json || fail "not the phantom's figures"
 
 echo "== What belongs to the programs"
 for page in tidemark tidemark-cli; do
@@ -67,7 +106,7 @@ for side in 16 48 256 512; do
     fail "$file is not $side pixels wide"
 done
 for file in icons/hicolor/scalable/apps/tidemark.svg applications/tidemark.desktop mime/packages/tidemark.xml \
-  metainfo/org.tidemark.Tidemark.metainfo.xml doc/tidemark/copyright doc/tidemark/third-party.md; do
+  metainfo/org.tidemark.Tidemark.metainfo.xml doc/tidemark/copyright doc/tidemark-cli/copyright doc/tidemark/changelog.gz; do
   [[ -s /usr/share/$file ]] || fail "/usr/share/$file is missing"
 done
 if command -v appstreamcli >/dev/null; then
@@ -87,12 +126,21 @@ if [[ -x /usr/bin/tidemark ]]; then
   grep -q '^tidemark: *[0-9]' diagnostics.txt || fail "tidemark --diagnostics says no version"
 fi
 
-if command -v lintian >/dev/null; then
-  echo "== lintian (for information)"
-  lintian --allow-root "$work/tidemark.deb" || true
+echo "== Removing it, and looking for what is left"
+DEBIAN_FRONTEND=noninteractive apt-get remove -y -q -o DPkg::Lock::Timeout=300 "${packages[@]}" >/dev/null
+[[ ! -e /usr/bin/tidemark-cli && ! -e /usr/bin/tidemark ]] || fail "a program is still there"
+purge || fail "purging fails"
+files >"$work/after"
+# Other packages that were installed meanwhile are theirs.
+LC_ALL=C comm -13 "$work/before" "$work/after" | grep -i tidemark && fail "these files are left"
+left=$(LC_ALL=C comm -13 "$work/before" "$work/after")
+if [[ -n $left ]]; then
+  while read -r file; do
+    dpkg -S "$file" >/dev/null 2>&1 || echo "$file"
+  done <<<"$left" >"$work/left"
+  if [[ -s $work/left ]]; then
+    cat "$work/left"
+    fail "these files are left, and no package's"
+  fi
 fi
-
-echo "== Removing it"
-DEBIAN_FRONTEND=noninteractive apt-get purge -y -q tidemark >/dev/null
-[[ ! -e /usr/bin/tidemark-cli ]] || fail "tidemark-cli is still there"
-echo "== The Debian package works: $deb"
+echo "== The Debian packages work: $debs"

@@ -15,15 +15,23 @@ tidemark_packages=(
 if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then tidemark_packages+=(libqt6opengl6-dev); fi
 
 # Only tests need these: a screen that nobody sees, other readers and validators of DICOM, PACS servers, what makes and
-# looks at the Debian package, a second compiler with its sanitizers, the reference compiler of shaders, and what makes the
-# handbook's HTML.
+# looks at the Debian package, a second compiler with its sanitizers, the reference compiler of shaders, what makes the
+# handbook's HTML, and a font for Chinese and Japanese.
 tidemark_test_packages=(
   xvfb xauth locales python3-pydicom python3-numpy dicom3tools dcm2niix plastimatch orthanc dcmtk openssl
-  dpkg-dev file clang libclang-rt-dev glslang-tools python3-sphinx python3-myst-parser
+  dpkg-dev debhelper fakeroot file clang libclang-rt-dev glslang-tools python3-sphinx python3-myst-parser
+  fonts-droid-fallback
 )
 
 # Only ./test --long needs these.
 tidemark_long_test_packages=(clang-format clang-tidy python3-skimage)
+
+# Only making packages (packaging/release.sh) and ./test --long need these: what is in the bundle beside libraries, what
+# makes archives, packages and images, and systems in folders to try them in.
+tidemark_package_packages=(
+  qt6-translations-l10n qt6-wayland libgl1-mesa-dri libegl-mesa0 libglx-mesa0 fonts-dejavu-core fonts-droid-fallback patchelf makeself xz-utils
+  debhelper fakeroot lintian desktop-file-utils appstream mmdebstrap imagemagick rpm umoci skopeo python3
+)
 
 # The packages of the list that are not installed, one a line.
 tidemark_missing_packages() {
@@ -35,11 +43,12 @@ tidemark_missing_packages() {
   done
 }
 
-# tidemark_install_dependencies [--tests | --long-tests]: installs what is missing. Where that cannot be done it says
+# tidemark_install_dependencies [--tests | --long-tests | --packages]: installs what is missing. Where that cannot be done it says
 # what is needed and goes on: the build finds out whether it is there all the same.
 tidemark_install_dependencies() {
   if [[ ${1:-} == --* ]]; then tidemark_packages+=("${tidemark_test_packages[@]}"); fi
   if [[ ${1:-} == --long-tests ]]; then tidemark_packages+=("${tidemark_long_test_packages[@]}"); fi
+  if [[ ${1:-} == --packages || ${1:-} == --long-tests ]]; then tidemark_packages+=("${tidemark_package_packages[@]}"); fi
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     echo "This system has no apt. Tidemark needs what these Debian packages hold:"
     echo "  ${tidemark_packages[*]}"
