@@ -111,7 +111,9 @@ CaseWindow::CaseWindow(KeptCase kept, Actions& actions, QWidget* parent)
       number_(kept.number) {
   make_contents();
   restore_arrangement(kept.views);
-  if (proxy_->state().modified) autosave_->save_soon();
+  if (!proxy_->state().modified) return;
+  autosave_->save_soon();
+  autosave_->save_now();
 }
 
 KeptCase CaseWindow::keep() {

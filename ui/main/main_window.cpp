@@ -15,9 +15,9 @@
 #include <QStackedWidget>
 #include <QToolBar>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "engine/case_balance.h"
-#include "engine/job_runner.h"
 #include "engine/message_text.h"
 #include "ui/look/about_dialog.h"
 #include "ui/look/icons.h"
@@ -57,8 +57,21 @@
 #include "ui/views/picture_surface.h"
 #include "ui/views/picture_view.h"
 #include "ui/views/play.h"
+#include "ui/widgets/work_line.h"
 
 namespace tidemark::ui {
+namespace {
+
+// Something is being read, written or measured, which its line shows.
+bool is_at_work(const QMainWindow& window) {
+  const auto loading = window.findChildren<LoadingView*>();
+  const auto work = window.findChildren<WorkLine*>();
+  return std::any_of(loading.begin(), loading.end(), [](const auto* line) { return line->isVisible(); }) ||
+         std::any_of(work.begin(), work.end(), [](const auto* line) { return line->working(); });
+}
+
+}  // namespace
+
 MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
   setObjectName("main");
   setWindowTitle(tr("Tidemark"));  // Qt adds the name of a case that fills the window
@@ -239,6 +252,7 @@ MainWindow::Kept MainWindow::keep() {
   Kept kept;
   kept.tabs = actions_->tabs->isChecked();
   kept.lock_step = actions_->lock_step->isChecked();
+  kept.executor = executor_;
   kept.lesson = teaching_->keep();
   panels_->set_case(nullptr);
   status_bar_->set_proxy(nullptr);
@@ -254,6 +268,7 @@ MainWindow::Kept MainWindow::keep() {
 void MainWindow::take_over(Kept kept) {
   QList<CaseWindow*> taken;
   QList<CaseWindow*> linked;
+  executor_ = kept.executor;
   actions_->tabs->setChecked(kept.tabs);
   for (KeptCase& one : kept.cases) {
     const bool is_linked = one.linked;
@@ -415,8 +430,7 @@ void MainWindow::connect_views() {
 
 // Work that is on its way would end with the window.
 void MainWindow::change_language(QAction* chosen) {
-  const auto runners = findChildren<engine::JobRunner*>();
-  const bool busy = std::any_of(runners.begin(), runners.end(), [](const auto* one) { return one->busy(); });
+  const bool busy = is_at_work(*this);
   if (!busy && teaching_->editor_may_close()) {
     settings::language().set(chosen->data().toString());
     return emit language_changed();

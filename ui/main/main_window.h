@@ -57,6 +57,7 @@ class MainWindow : public QMainWindow {
     qsizetype active = -1;
     bool tabs = false;
     bool lock_step = false;
+    solver::ExecutorKind executor = solver::ExecutorKind::automatic;  // of new cases
     std::unique_ptr<KeptLesson> lesson;
   };
   [[nodiscard]] Kept keep();

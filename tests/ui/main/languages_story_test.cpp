@@ -13,8 +13,10 @@
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/window_checks.h"
 #include "ui/look/language.h"
+#include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/teaching.h"
+#include "ui/opening/loading_view.h"
 #include "ui/settings.h"
 
 namespace tidemark::test::languages_story_test {
@@ -138,6 +140,23 @@ class LanguagesStoryTest : public QObject {
     desktop.speak("English");
     QCOMPARE(desktop.menu(0), QStringLiteral("File"));
     QCOMPARE(ui::settings::language().get(), QStringLiteral("en"));
+  }
+
+  void work_that_is_on_its_way_is_not_given_up() {
+    DesktopIn desktop("en");
+    QVERIFY(desktop.open_phantom("sphere"));
+    auto* loading = desktop.window().findChild<ui::LoadingView*>();
+    QVERIFY(loading);
+    loading->show();
+    QAction* german = desktop.window().actions().languages->actions().at(2);
+    QCOMPARE(german->text(), QStringLiteral("Deutsch"));
+    ui::MainWindow* const before = &desktop.window();
+    german->trigger();
+    QTest::qWait(200);
+    QCOMPARE(&desktop.window(), before);
+    QCOMPARE(ui::settings::language().get(), QStringLiteral("en"));
+    QVERIFY(!german->isChecked());
+    QVERIFY(desktop.window().findChild<ui::MessageBar*>()->text().contains("language"));
   }
 
   void a_lesson_goes_on_in_another_language() {
