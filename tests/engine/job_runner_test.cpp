@@ -21,8 +21,6 @@ constexpr int kPatience = 60'000;  // ms
 
 class Runner : public engine::JobRunner {
  public:
-  Runner() : JobRunner("tidemark::NoSteps", nullptr) {}
-
   template <class Work>
   void number(Work work) {
     run(std::move(work), [this](int value) { numbers << value; });
