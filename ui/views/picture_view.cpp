@@ -248,6 +248,11 @@ void PictureView::showEvent(QShowEvent* event) {
 }
 
 bool PictureView::event(QEvent* event) {
+  // Between the clicks of a gesture keys are the gesture's, before they are those of actions.
+  if (event->type() == QEvent::ShortcutOverride && waits_for_click()) {
+    const int key = static_cast<const QKeyEvent*>(event)->key();
+    if (key == Qt::Key_Escape || key == Qt::Key_Return || key == Qt::Key_Enter) event->accept();
+  }
   // Another screen has other pixels.
   if (event->type() == QEvent::ScreenChangeInternal) ask();
   return QWidget::event(event);

@@ -263,7 +263,8 @@ void FinishLabelsStoryTest::a_polygon_is_drawn_by_clicks() {
   QVERIFY(desktop.state().labels.empty());
 
   for (const QPoint corner : corners) click_at(corner);
-  QTest::mouseDClick(axial, Qt::LeftButton, {}, corners.back());
+  QTest::mouseDClick(axial, Qt::LeftButton, {}, corners.back());  // which ends with the second press
+  QTest::mouseRelease(axial, Qt::LeftButton, {}, corners.back());
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
   const Region square = region(desktop, 1);

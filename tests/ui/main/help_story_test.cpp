@@ -118,18 +118,6 @@ void HelpStoryTest::every_panel_has_its_page() {
     QCOMPARE(browser.page(handbook), QStringLiteral("panels/%1.html").arg(name));
     keep_picture(*dock);
   }
-
-  // As a window of its own.
-  desktop.window().panels().show("labels");
-  auto* labels = desktop.window().findChild<QDockWidget*>("labels");
-  labels->setFloating(true);
-  labels->activateWindow();
-  QVERIFY(QTest::qWaitForWindowActive(labels));
-  QWidget* control = first_that_takes_keys(*labels->widget());
-  control->setFocus();
-  QTest::keyClick(control, Qt::Key_F1);
-  QCOMPARE(browser.page(handbook), QString("panels/labels.html"));
-  labels->setFloating(false);
 }
 
 void HelpStoryTest::the_lesson_has_its_page() {
