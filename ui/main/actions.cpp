@@ -1,5 +1,6 @@
 #include "ui/main/actions.h"
 
+#include <QRegularExpression>
 #include <algorithm>
 
 #include "engine/case_proxy.h"
@@ -16,6 +17,12 @@ constexpr const char* kOwnKey = "own_key";  // property: the key that the progra
 
 Setting<QString> setting_of(const QAction* action) {
   return settings::key(action->objectName());
+}
+
+// A menu's entry without its letter, which Chinese and Japanese have behind it: "開く(&O)…".
+QString without_letter(QString text) {
+  static const QRegularExpression kLetterBehind(QStringLiteral("\\(&\\w\\)"));
+  return text.remove(kLetterBehind).remove('&').remove(QStringLiteral("…"));
 }
 
 // "Play (P)"
@@ -42,7 +49,7 @@ QAction* Actions::make(const char* name, const char* picture, const QString& tex
   if (picture) action->setIcon(icon(QString::fromLatin1(picture)));
   action->setObjectName(QString::fromLatin1(name));
   action->setProperty(kOwnKey, key.toString());
-  action->setProperty("tip", tip.isEmpty() ? QString(text).remove('&').remove(QStringLiteral("…")) : tip);
+  action->setProperty("tip", tip.isEmpty() ? without_letter(text) : tip);
   const auto chosen = setting_of(action);
   action->setShortcut(chosen.is_set() ? QKeySequence(chosen.get()) : key);
   show_key(action);

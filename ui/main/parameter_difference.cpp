@@ -35,12 +35,15 @@ std::vector<Text> all_texts() {
           number("T %1", &P::target),
           number("ε %1", &P::range),
           number("α %1", &P::alpha),
-          number("W %1", "W by spacing", &P::band),
-          number("w %1", "w by band", &P::rescale),
+          number("W %1", QT_TRANSLATE_NOOP("tidemark", "W by spacing"), &P::band),
+          number("w %1", QT_TRANSLATE_NOOP("tidemark", "w by band"), &P::rescale),
           number("g %1", &P::target_gradient),
-          term("with data", "without data", &P::data_term),
-          term("with curvature", "without curvature", &P::curvature_term),
-          term("with rescaling", "without rescaling", &P::rescaling_term)};
+          term(QT_TRANSLATE_NOOP("tidemark", "with data"), QT_TRANSLATE_NOOP("tidemark", "without data"),
+               &P::data_term),
+          term(QT_TRANSLATE_NOOP("tidemark", "with curvature"),
+               QT_TRANSLATE_NOOP("tidemark", "without curvature"), &P::curvature_term),
+          term(QT_TRANSLATE_NOOP("tidemark", "with rescaling"),
+               QT_TRANSLATE_NOOP("tidemark", "without rescaling"), &P::rescaling_term)};
 }
 
 }  // namespace
