@@ -41,6 +41,11 @@ void finish_at_exit() {
 
 }  // namespace
 
+bool BackgroundJob::any_running() {
+  const std::lock_guard lock(running().mutex);
+  return running().count > 0;
+}
+
 std::shared_ptr<BackgroundJob> BackgroundJob::start(QObject* receiver, Work work, CutOff cut_off) {
   static std::once_flag registered;
   std::call_once(registered, [] { qAddPostRoutine(finish_at_exit); });

@@ -37,6 +37,7 @@ class BackgroundJob {
   void deliver(std::function<void()> call) { weak_receiver_->send(std::move(call)); }
   [[nodiscard]] std::stop_token stop() const { return stop_.get_token(); }
 
+  [[nodiscard]] static bool any_running();
   // Waits until no job runs; false when some still do after `limit`.
   static bool finish_all(std::chrono::milliseconds limit);
 

@@ -30,6 +30,8 @@ class CaseAutosave : public QObject {
   ~CaseAutosave() override;
 
   void save_now();
+  // Another way to ask how the case is shown.
+  void ask_view_state_of(std::function<std::string()> view_state) { view_state_ = std::move(view_state); }
   // Called with the case's first state: a rescued case is in no file but the copy that it came from.
   void save_soon() { soon_ = true; }
 

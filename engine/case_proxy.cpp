@@ -274,11 +274,6 @@ void CaseProxy::go_to(std::uint64_t state) {
   post([state](CaseRunner& runner, const Progress&) { return runner.go_to(state); });
 }
 
-void CaseProxy::forget_askers() {
-  askers_->close();
-  askers_ = WeakReceiver::of(this);
-}
-
 void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
                      std::function<void(std::optional<renderer::Hit>)> answer) {
   post([view, size, pixel, answer = std::move(answer), askers = askers_](CaseRunner& runner,

@@ -148,9 +148,8 @@ class CaseProxy : public QObject {
   // With `within_mm` the label is refined: the surface stays that near to it.
   void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
-  // The window that shows the case goes, the case stays: whoever waits for pick() or take_snapshot() gets no
-  // answer any more.
-  void forget_askers();
+  // Whether somebody waits for an answer of pick() or take_snapshot().
+  [[nodiscard]] bool is_asked() const { return askers_.use_count() > 1; }
 
   // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,
   // or never when the case is closed before.
@@ -208,7 +207,7 @@ class CaseProxy : public QObject {
   Display display_;
   StateComparison comparison_;
   std::shared_ptr<WeakReceiver> weak_receiver_;
-  std::shared_ptr<WeakReceiver> askers_;  // of the window that shows it
+  std::shared_ptr<WeakReceiver> askers_;  // each answer on its way holds it
   std::shared_ptr<CaseRunner> runner_;
   std::shared_ptr<LockStep> lock_step_;
   std::unique_ptr<CaseSweep> sweep_;

@@ -1,7 +1,6 @@
 #include "engine/registration_job.h"
 
 namespace tidemark::engine {
-namespace {}  // namespace
 
 RegistrationJob::RegistrationJob(QObject* parent) : JobRunner(parent) {}
 

@@ -3,7 +3,6 @@
 #include "document/result_files.h"
 
 namespace tidemark::engine {
-namespace {}  // namespace
 
 ResultJobs::ResultJobs(QObject* parent) : JobRunner(parent) {}
 

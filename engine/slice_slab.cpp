@@ -30,6 +30,11 @@ double SliceSlab::finest_mm() const {
   return std::min(geometry_.spacing_mm[axes_[0]], geometry_.spacing_mm[axes_[1]]);
 }
 
+bool SliceSlab::is_same_as(const SliceSlab& other) const {
+  constexpr double kRounding = 1e-6;  // of the thickness, where a point has moved within the plane
+  return normal_ == other.normal_ && std::abs(from_mm_ - other.from_mm_) < kRounding * half_mm_;
+}
+
 bool SliceSlab::meets(Index3 first, Index3 size) const {
   double low = distance_mm(first);
   double high = low;

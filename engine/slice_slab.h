@@ -18,6 +18,8 @@ class SliceSlab {
   SliceSlab(const Geometry& geometry, glm::dvec3 point_mm, glm::dvec3 normal);
 
   [[nodiscard]] bool contains(Index3 voxel) const { return contains(distance_mm(voxel)); }
+  // Whether the other one is of the same plane.
+  [[nodiscard]] bool is_same_as(const SliceSlab& other) const;
   // Whether voxels of the box can be in it.
   [[nodiscard]] bool meets(Index3 first, Index3 size) const;
   // The grid's axis most along the normal, after the two that lie in the slice.

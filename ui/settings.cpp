@@ -1,6 +1,7 @@
 #include "ui/settings.h"
 
 #include <QFileInfo>
+#include <QRegularExpression>
 
 #include "core/site_folder.h"
 #include "ui/look/theme.h"
@@ -9,9 +10,19 @@
 namespace tidemark::ui {
 namespace {
 
+const QString kLocked = QStringLiteral("locked");  // a list of names
+
 template <class Described>
 SettingText described(const Described& setting) {
   return {setting.name(), setting.text(), origin_of(setting.name()), is_locked(setting.name())};
+}
+
+// As QSettings reads it back.
+QString quoted(QString value) {
+  static const QRegularExpression kSpecial(QStringLiteral("[,;\\\\\"=]"));
+  if (!value.contains(kSpecial)) return value;
+  return QStringLiteral("\"%1\"").arg(
+      value.replace('\\', QLatin1String("\\\\")).replace('"', QLatin1String("\\\"")));
 }
 
 QString origin_text(const SettingText& setting) {
@@ -31,7 +42,7 @@ QString origin_text(const SettingText& setting) {
 
 bool is_locked(const QString& name) {
   const QSettings site(settings::site_file(), QSettings::IniFormat);
-  return site.contains(name) && site.value(QStringLiteral("locked")).toStringList().contains(name);
+  return site.contains(name) && site.value(kLocked).toStringList().contains(name);
 }
 
 SettingOrigin origin_of(const QString& name) {
@@ -73,13 +84,15 @@ QString settings::print() {
                QFileInfo::exists(site_file()) ? QString() : QStringLiteral(", which is not there"));
   QString group = QStringLiteral("General");
   text += QStringLiteral("[General]\n");
+  const QStringList locked = QSettings(site_file(), QSettings::IniFormat).value(kLocked).toStringList();
+  if (!locked.isEmpty()) text += QStringLiteral("%1=%2\n").arg(kLocked, locked.join(QStringLiteral(", ")));
   for (const SettingText& setting : all()) {
     const QStringList path = setting.name.split(u'/');
     if (path.size() > 1 && path.front() != group) {
       group = path.front();
       text += QStringLiteral("[%1]\n").arg(group);
     }
-    text += QStringLiteral("; %1\n%2=%3\n").arg(origin_text(setting), path.back(), setting.value);
+    text += QStringLiteral("; %1\n%2=%3\n").arg(origin_text(setting), path.back(), quoted(setting.value));
   }
   return text;
 }

@@ -69,7 +69,7 @@ class SettingsTest : public QObject {
   void what_is_printed_can_be_a_sites_file() {
     site("[General]\ntheme=dark\nlocked=theme\n");
     ui::settings::layout().set(ui::ViewLayout::two_two);
-    ui::settings::save_folder().set("/home/masks");
+    ui::settings::save_folder().set("/home/masks, old; \"a\"\\b");
     const QString printed = ui::settings::print();
     QVERIFY2(printed.contains("; the site's, locked\ntheme=dark\n"), qPrintable(printed));
     QVERIFY2(printed.contains("; the user's\nlayout=two-two\n"), qPrintable(printed));
@@ -77,7 +77,8 @@ class SettingsTest : public QObject {
     site(printed.toUtf8());
     QSettings().clear();
     QCOMPARE(ui::settings::layout().get(), ui::ViewLayout::two_two);
-    QCOMPARE(ui::settings::save_folder().get(), QStringLiteral("/home/masks"));
+    QCOMPARE(ui::settings::save_folder().get(), QStringLiteral("/home/masks, old; \"a\"\\b"));
+    QVERIFY(ui::is_locked("theme"));
     QCOMPARE(ui::settings::theme().get(), ui::Theme::dark);
   }
 

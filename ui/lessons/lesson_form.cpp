@@ -4,6 +4,7 @@
 #include <QPushButton>
 #include <cmath>
 
+#include "engine/message_text.h"
 #include "ui/lessons/text_box.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -118,7 +119,7 @@ void LessonForm::show_lesson(document::Lesson& lesson, const std::filesystem::pa
 
 void LessonForm::show_start() {
   drop_start_->setVisible(lesson_->start.has_value());
-  if (lesson_->start) return start_->setText(QString::fromStdString(lesson_->start->describe()));
+  if (lesson_->start) return start_->setText(engine::message_text(lesson_->start->describe()));
   start_->setText(lesson_->study.phantom.empty() ? tr("none yet: take it from a case")
                                                  : tr("the phantom's own"));
 }

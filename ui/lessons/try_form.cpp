@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/message_text.h"
 #include "ui/lessons/text_box.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -22,7 +23,7 @@ QHBoxLayout* row_in(QWidget* whole) {
 }
 
 QString start_text(const document::Start& start) {
-  return QString::fromStdString(start.describe());
+  return engine::message_text(start.describe());
 }
 
 }  // namespace

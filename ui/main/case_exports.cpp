@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "document/segment_meshes.h"
+#include "engine/message_text.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
@@ -45,7 +46,7 @@ std::vector<std::pair<QString, QString>> parameters_of(const engine::CaseProxy& 
   if (!state.begun) return {};
   std::vector<std::pair<QString, QString>> parameters{
       {CaseExports::tr("Start"), state.start_text},
-      {CaseExports::tr("Driven by"), QString::fromStdString(document::describe(proxy.drive()))}};
+      {CaseExports::tr("Driven by"), engine::message_text(document::describe(proxy.drive()))}};
   if (document::uses_tent(proxy.drive())) {
     const QString unit = value_unit(proxy.volume());
     parameters.emplace_back(CaseExports::tr("Target T"), number_text(state.parameters.target, 1, unit));

@@ -3,6 +3,7 @@
 #include <QFileInfo>
 #include <QStatusBar>
 
+#include "engine/message_text.h"
 #include "imaging/pacs/configuration.h"
 #include "imaging/results/segments.h"
 #include "ui/main/ask_for_labels.h"
@@ -121,7 +122,7 @@ void CaseResults::add(const std::shared_ptr<const imaging::Segments>& segments) 
         count == 1 ? tr("Read a label from %1").arg(name) : tr("Read %1 labels from %2").arg(count).arg(name),
         kShownMs);
     QStringList changes;
-    for (const std::string& change : segments->changes) changes << QString::fromStdString(change);
+    for (const std::string& change : segments->changes) changes << engine::message_text(change);
     if (!changes.isEmpty()) window_.tell(tr("%1: %2").arg(name, changes.join(QStringLiteral("; "))));
   }
   end_reading();

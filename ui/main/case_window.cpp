@@ -108,20 +108,17 @@ CaseWindow::CaseWindow(KeptCase kept, Actions& actions, QWidget* parent)
       session_file(std::move(kept.session_file)),
       proxy_(std::move(kept.proxy)),
       actions_(actions),
+      autosave_(std::move(kept.autosave)),
       number_(kept.number) {
   make_contents();
-  restore_arrangement(kept.views);
-  if (!proxy_->state().modified) return;
-  autosave_->save_soon();
-  autosave_->save_now();
 }
 
 KeptCase CaseWindow::keep() {
-  KeptCase kept{nullptr, arrangement(), session_file, number_, linked_};
-  autosave_.reset();
+  KeptCase kept{nullptr, std::move(autosave_), arrangement(), session_file, number_, linked_};
+  // Until there is another window it is shown as it was.
+  kept.autosave->ask_view_state_of([state = view_state()] { return state; });
   proxy_->disconnect(this);
   proxy_->display().disconnect(this);
-  proxy_->forget_askers();
   kept.proxy = std::move(proxy_);
   return kept;
 }
@@ -141,8 +138,9 @@ void CaseWindow::make_contents() {
   connect(proxy_.get(), &engine::CaseProxy::state_changed, this, &CaseWindow::follow_state);
   connect(&proxy_->display(), &engine::Display::changed, this, &CaseWindow::follow_state);
   follow_state();
-  autosave_ = std::make_unique<engine::CaseAutosave>(*proxy_, engine::recovery_folder(),
-                                                     [this] { return view_state(); });
+  const auto shown = [this] { return view_state(); };
+  if (autosave_) return autosave_->ask_view_state_of(shown);
+  autosave_ = std::make_unique<engine::CaseAutosave>(*proxy_, engine::recovery_folder(), shown);
 }
 
 CaseWindow::~CaseWindow() {
@@ -388,7 +386,7 @@ QByteArray CaseWindow::arrangement() const {
   return bytes;
 }
 
-void CaseWindow::restore_arrangement(const QByteArray& arrangement) {
+void CaseWindow::show_views(const QByteArray& arrangement) {
   QDataStream stream(arrangement);
   stream.setVersion(QDataStream::Qt_6_4);
   int layout = -1;
@@ -429,7 +427,7 @@ std::string CaseWindow::view_state() const {
 Status CaseWindow::restore_view(const document::SessionContents& contents) {
   const QJsonObject state = QJsonDocument::fromJson(QByteArray::fromStdString(contents.view_state)).object();
   const QByteArray views = QByteArray::fromBase64(state["views"].toString().toLatin1());
-  if (!views.isEmpty()) restore_arrangement(views);
+  if (!views.isEmpty()) show_views(views);
   // All at once: between two changes the images would not be those that drive the surface.
   engine::DisplaySettings settings = proxy_->display().settings();
   settings.images.clear();

@@ -24,7 +24,8 @@ QString text_of(ViewKind kind);
 // A case without its window, which another one may take over: see CaseWindow::keep().
 struct KeptCase {
   std::unique_ptr<engine::CaseProxy> proxy;
-  QByteArray views;  // their arrangement
+  std::unique_ptr<engine::CaseAutosave> autosave;  // goes before the case
+  QByteArray views;                                // their arrangement: show_views()
   QString session_file;
   int number = 1;
   bool linked = false;
@@ -36,7 +37,7 @@ class CaseWindow : public QMainWindow {
   Q_OBJECT
  public:
   CaseWindow(std::unique_ptr<engine::CaseProxy> proxy, Actions& actions, QWidget* parent = nullptr);
-  // Shows the case as it was shown before. Links are the receiver's to make.
+  // Its views and its links are the receiver's to bring back.
   CaseWindow(KeptCase kept, Actions& actions, QWidget* parent = nullptr);
   ~CaseWindow() override;
 
@@ -68,6 +69,7 @@ class CaseWindow : public QMainWindow {
   [[nodiscard]] QList<PictureView*> views() const;
   [[nodiscard]] QDockWidget* dock_of(const PictureView* view) const;
   void reset_views();
+  void show_views(const QByteArray& arrangement);  // as KeptCase has it
 
   // The display and the arrangement of views, for session files. Fails (ErrorKind::input) on settings that
   // make no sense, and then changes nothing.
@@ -103,7 +105,6 @@ class CaseWindow : public QMainWindow {
   void toggle_maximised(QDockWidget* dock);
   void follow_state();
   [[nodiscard]] QByteArray arrangement() const;
-  void restore_arrangement(const QByteArray& arrangement);
 
   std::unique_ptr<engine::CaseProxy> proxy_;
   Actions& actions_;

@@ -66,7 +66,7 @@ bool Help::eventFilter(QObject* watched, QEvent* event) {
   if (!elsewhere || !asks || qobject_cast<QKeySequenceEdit*>(QApplication::focusWidget())) {
     return QObject::eventFilter(watched, event);
   }
-  open();
+  if (!key->isAutoRepeat()) open();
   return true;
 }
 

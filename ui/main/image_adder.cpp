@@ -113,8 +113,8 @@ void ImageAdder::look_at(const std::shared_ptr<const engine::LoadedStudy>& loade
 void ImageAdder::refuse(const engine::LoadedStudy& loaded) {
   window_.tell(tr("%1 lies elsewhere in the patient than the study: its %2 share no place with the "
                   "study's %3.")
-                   .arg(loaded.name, QString::fromStdString(imaging::describe(loaded.volume->geometry)),
-                        QString::fromStdString(imaging::describe(into_->proxy().volume().geometry))),
+                   .arg(loaded.name, engine::message_text(imaging::describe(loaded.volume->geometry)),
+                        engine::message_text(imaging::describe(into_->proxy().volume().geometry))),
                kAboutImages);
 }
 

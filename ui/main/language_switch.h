@@ -22,11 +22,15 @@ class LanguageSwitch : public QObject {
   [[nodiscard]] MainWindow& window() { return *window_; }
 
  private:
+  static constexpr int kLookAgainMs = 20;
   void make_window();
+  void wait();
+  void look(bool was_quiet);
   void change();
 
   engine::Engine& engine_;
   std::unique_ptr<MainWindow> window_;
+  bool waiting_ = false;  // for a moment at which nothing would be lost
 };
 
 }  // namespace tidemark::ui

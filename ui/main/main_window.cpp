@@ -3,6 +3,7 @@
 #include <QAbstractButton>
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDialog>
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -17,6 +18,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "engine/background_job.h"
 #include "engine/case_balance.h"
 #include "engine/message_text.h"
 #include "ui/look/about_dialog.h"
@@ -62,12 +64,14 @@
 namespace tidemark::ui {
 namespace {
 
-// Something is being read, written or measured, which its line shows.
+// Something is being read, written or measured, which its line shows, or a dialog waits for its user.
 bool is_at_work(const QMainWindow& window) {
   const auto loading = window.findChildren<LoadingView*>();
   const auto work = window.findChildren<WorkLine*>();
+  const auto dialogs = window.findChildren<QDialog*>();
   return std::any_of(loading.begin(), loading.end(), [](const auto* line) { return line->isVisible(); }) ||
-         std::any_of(work.begin(), work.end(), [](const auto* line) { return line->working(); });
+         std::any_of(work.begin(), work.end(), [](const auto* line) { return line->working(); }) ||
+         std::any_of(dialogs.begin(), dialogs.end(), [](const auto* dialog) { return dialog->isVisible(); });
 }
 
 }  // namespace
@@ -247,20 +251,35 @@ QMdiSubWindow* MainWindow::place(CaseWindow* window) {
   return area_->add(window);
 }
 
+bool MainWindow::is_quiet() const {
+  const QList<CaseWindow*> all = cases();
+  return !QApplication::activeModalWidget() && !QApplication::activePopupWidget() &&
+         !engine::BackgroundJob::any_running() &&
+         std::none_of(all.begin(), all.end(), [](CaseWindow* one) { return one->proxy().is_asked(); });
+}
+
 MainWindow::Kept MainWindow::keep() {
   keep_arrangement();
   Kept kept;
   kept.tabs = actions_->tabs->isChecked();
   kept.lock_step = actions_->lock_step->isChecked();
+  kept.panels_hidden = actions_->hide_interface->isChecked();
+  kept.large_type = teaching_->large_type();
   kept.executor = executor_;
   kept.lesson = teaching_->keep();
   panels_->set_case(nullptr);
   status_bar_->set_proxy(nullptr);
   const CaseWindow* active = std::exchange(active_, nullptr);
   follow_case();
-  for (CaseWindow* window : cases()) {
+  const QList<CaseWindow*> all = cases();
+  std::vector<bool> linked;
+  for (CaseWindow* window : all) linked.push_back(window->linked());
+  links_->unlink();
+  for (CaseWindow* window : all) {
     if (window == active) kept.active = static_cast<qsizetype>(kept.cases.size());
+    window->disconnect(session_reader_);  // which would take its going for the user's wish
     kept.cases.push_back(window->keep());
+    kept.cases.back().linked = linked[kept.cases.size() - 1];
   }
   return kept;
 }
@@ -272,10 +291,12 @@ void MainWindow::take_over(Kept kept) {
   actions_->tabs->setChecked(kept.tabs);
   for (KeptCase& one : kept.cases) {
     const bool is_linked = one.linked;
+    const QByteArray views = one.views;
     auto* window = new CaseWindow(std::move(one), *actions_);
     taken << window;
     if (is_linked) linked << window;
     area_->show_child(*place(window));
+    window->show_views(views);
   }
   links_->link(linked);
   {
@@ -285,6 +306,10 @@ void MainWindow::take_over(Kept kept) {
   if (!taken.isEmpty()) centre_->setCurrentWidget(area_);
   if (kept.active >= 0) bring_to_front(*taken[kept.active]);
   if (kept.lesson) teaching_->take_over(std::move(kept.lesson));
+  teaching_->set_large_type(kept.large_type);
+  actions_->hide_interface->setChecked(kept.panels_hidden);
+  const QSignalBlocker as_it_stands(actions_->full_screen);
+  actions_->full_screen->setChecked(isFullScreen());
 }
 
 void MainWindow::show_case(QMdiSubWindow& child, const engine::LoadedStudy& study,
@@ -430,14 +455,16 @@ void MainWindow::connect_views() {
 
 // Work that is on its way would end with the window.
 void MainWindow::change_language(QAction* chosen) {
-  const bool busy = is_at_work(*this);
-  if (!busy && teaching_->editor_may_close()) {
-    settings::language().set(chosen->data().toString());
+  const QString before = settings::language().get();
+  const QString wanted = chosen->data().toString();
+  if (wanted == before) return;
+  if (!is_at_work(*this) && teaching_->editor_may_close()) {
+    settings::language().set(wanted);
     return emit language_changed();
   }
   for (QAction* action : actions_->languages->actions())
-    action->setChecked(action->data().toString() == settings::language().get());
-  if (busy) tell(tr("The language can be changed once what is being read or written is done."));
+    action->setChecked(action->data().toString() == before);
+  tell(tr("The language can be changed once dialogs are closed and nothing is being read or written."));
 }
 
 void MainWindow::connect_windows() {

@@ -57,10 +57,14 @@ class MainWindow : public QMainWindow {
     qsizetype active = -1;
     bool tabs = false;
     bool lock_step = false;
+    bool panels_hidden = false;
+    bool large_type = false;
     solver::ExecutorKind executor = solver::ExecutorKind::automatic;  // of new cases
     std::unique_ptr<KeptLesson> lesson;
   };
   [[nodiscard]] Kept keep();
+  // Nothing is on its way that would end with the window.
+  [[nodiscard]] bool is_quiet() const;
   void take_over(Kept kept);
 
   [[nodiscard]] CaseWindow* active_case() const;  // null: none

@@ -40,7 +40,9 @@ Teaching::Teaching(MainWindow& window) : QObject(&window), window_(window), norm
 
 KeptLesson::~KeptLesson() = default;
 
-Teaching::~Teaching() = default;
+Teaching::~Teaching() {
+  if (large_type()) QApplication::setFont(normal_);
+}
 
 void Teaching::fill(QMenu& menu) {
   menu_ = &menu;
@@ -67,9 +69,9 @@ void Teaching::fill(QMenu& menu) {
   edit_->setEnabled(false);
   connect(edit_, &QAction::triggered, this, [this] { editor().edit(course_->lesson(), file_); });
   menu.addSeparator();
-  auto* large = menu.addAction(tr("&Projector: large type"));
-  large->setCheckable(true);
-  connect(large, &QAction::toggled, this, &Teaching::set_large);
+  large_ = menu.addAction(tr("&Projector: large type"));
+  large_->setCheckable(true);
+  connect(large_, &QAction::toggled, this, &Teaching::set_large);
 }
 
 void Teaching::show_list(QPoint at) {
@@ -249,6 +251,14 @@ void Teaching::take_over(std::unique_ptr<KeptLesson> kept) {
   show(std::move(kept->course), kept->file);
   dock_->setVisible(kept->shown);
   name_case();
+}
+
+bool Teaching::large_type() const {
+  return large_->isChecked();
+}
+
+void Teaching::set_large_type(bool large) {
+  large_->setChecked(large);
 }
 
 void Teaching::set_large(bool large) {

@@ -58,6 +58,9 @@ class Teaching : public QObject {
   // The lesson that is being done, if there is one, to be taken over by another main window.
   [[nodiscard]] std::unique_ptr<KeptLesson> keep();
   void take_over(std::unique_ptr<KeptLesson> kept);
+  // For a projector.
+  [[nodiscard]] bool large_type() const;
+  void set_large_type(bool large);
 
  private:
   void ask_and_open();
@@ -81,6 +84,7 @@ class Teaching : public QObject {
   QMenu* menu_ = nullptr;
   QAction* show_ = nullptr;
   QAction* edit_ = nullptr;
+  QAction* large_ = nullptr;
   std::filesystem::path file_;      // of the lesson; empty: one of the program's own
   LessonEditor* editor_ = nullptr;  // once it is wanted
   QFont normal_;

@@ -60,10 +60,11 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
     configuration_ = std::move(*read);
   } else if (std::filesystem::exists(first_file, error)) {
     say(engine::message_text(read.error()));
-    // Its content would be lost.
+    // The user's own would be lost.
+    const bool is_own = first_file == file_;
     QPushButton* save = buttons->button(QDialogButtonBox::Save);
-    save->setEnabled(false);
-    save->setToolTip(tr("The file of servers cannot be read: repair it, or move it away"));
+    save->setEnabled(!is_own);
+    if (is_own) save->setToolTip(tr("The file of servers cannot be read: repair it, or move it away"));
   }
   for (const imaging::PacsServer& server : configuration_.servers)
     list_->addItem(QString::fromStdString(server.name));

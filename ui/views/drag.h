@@ -43,6 +43,7 @@ class Drag {
   // The button is up. Whether the gesture goes on without it: then moves follow, and with the next press
   // press().
   [[nodiscard]] virtual bool lifted() { return false; }
+  [[nodiscard]] virtual bool is_of_clicks() const { return false; }
   virtual void press(const Pointer& /*pointer*/) {}
   virtual void release() {}                                  // at its end
   virtual void paint(QPainter& /*painter*/) const {}         // over the view, while it lasts

@@ -17,6 +17,7 @@ class OutlineDrag : public LabelStroke {
   OutlineDrag(DragView view, const Pointer& pressed);
   void move(const Pointer& pointer) override;
   [[nodiscard]] bool lifted() override;
+  [[nodiscard]] bool is_of_clicks() const override { return by_clicks_; }
   void press(const Pointer& pointer) override;
   void release() override;
   void paint(QPainter& painter) const override;

@@ -122,11 +122,18 @@ void PictureView::ask() {
 }
 
 void PictureView::follow_display() {
-  if (waits_for_click() && settings().tool != tool_of_drag_) set_drag(nullptr);
+  if (waits_for_click() && !is_where_drag_began()) set_drag(nullptr);
   setCursor(cursor_at(mouse_));
   ask();
   follow_forces();
   paint_again();
+}
+
+// A gesture of clicks goes on in its own slice alone.
+bool PictureView::is_where_drag_began() const {
+  const auto now = slab();
+  const bool same_slice = now && slab_of_drag_ ? now->is_same_as(*slab_of_drag_) : !now && !slab_of_drag_;
+  return same_slice && settings().tool == tool_of_drag_ && display().label_brush().outlines;
 }
 
 // Painting.
@@ -285,6 +292,8 @@ std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
 
 void PictureView::mousePressEvent(QMouseEvent* event) {
   if (button_ != Qt::NoButton) return;  // one gesture at a time
+  ended_by_click_ = false;
+  if (waits_for_click() && !is_where_drag_began()) set_drag(nullptr);
   if (waits_for_click()) {
     if (event->button() != first_button_) return;
     button_ = first_button_;
@@ -298,6 +307,7 @@ void PictureView::mousePressEvent(QMouseEvent* event) {
   const bool is_brush = engine::has_right_button(tool) && tool != engine::Tool::seed;
   may_be_click_ = button_ == Qt::RightButton && !is_brush;
   tool_of_drag_ = tool;
+  slab_of_drag_ = slab();
   set_drag(begin_drag(pointer_at(*event)));
 }
 
@@ -328,6 +338,7 @@ void PictureView::mouseReleaseEvent(QMouseEvent* event) {
   button_ = Qt::NoButton;
   const bool clicked = std::exchange(may_be_click_, false);
   if (drag_ && drag_->lifted()) return paint_again();
+  ended_by_click_ = drag_ && drag_->is_of_clicks();
   if (drag_ && !clicked) drag_->release();
   set_drag(nullptr);
   if (clicked) ask_for_menu(event->position());
@@ -359,7 +370,7 @@ void PictureView::find_place(QPointF position, std::function<void(std::optional<
 void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
   const engine::Tool tool = settings().tool;
   // The second click of one that ended an outline begins no other.
-  if (tool == engine::Tool::label && display().label_brush().outlines && !waits_for_click()) return;
+  if (std::exchange(ended_by_click_, false)) return;
   // Dots are painted one quickly after the other.
   if (tool == engine::Tool::examples || tool == engine::Tool::wall || tool == engine::Tool::label)
     return mousePressEvent(event);

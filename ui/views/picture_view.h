@@ -94,6 +94,7 @@ class PictureView : public QWidget {
   void set_drag(std::unique_ptr<Drag> drag);
   [[nodiscard]] bool dragging() const { return drag_ != nullptr; }
   void end_clicks(int key);
+  [[nodiscard]] bool is_where_drag_began() const;
   // Between two clicks of a gesture.
   [[nodiscard]] bool waits_for_click() const { return drag_ && button_ == Qt::NoButton; }
   [[nodiscard]] bool pressed() const { return button_ != Qt::NoButton; }
@@ -130,6 +131,8 @@ class PictureView : public QWidget {
   Qt::MouseButton button_ = Qt::NoButton;        // that is held down
   Qt::MouseButton first_button_ = Qt::NoButton;  // of the drag
   engine::Tool tool_of_drag_{};
+  std::optional<engine::SliceSlab> slab_of_drag_;
+  bool ended_by_click_ = false;  // the last gesture, one of clicks
   QPointF mouse_;
   QPointF pressed_at_;
   bool may_be_click_ = false;  // the right button is down, and the mouse has not moved yet

@@ -16,7 +16,7 @@ class WorkLine : public QWidget {
   void begin(const QString& what);
   void set_progress(double fraction, const QString& step);  // below 0 when unknown
   void end(const QString& said);                            // stays to be read
-  [[nodiscard]] bool working() const { return bar_->isVisible(); }
+  [[nodiscard]] bool working() const { return !bar_->isHidden(); }
   [[nodiscard]] QString text() const { return said_->text(); }
 
  signals:
