@@ -7,6 +7,7 @@
 #include "imaging/regions/islands.h"
 #include "imaging/regions/margin.h"
 #include "imaging/regions/smoothing.h"
+#include "imaging/regions/watershed.h"
 #include "solver/inside_region.h"
 
 namespace tidemark::document {
@@ -31,7 +32,7 @@ Region without_small_islands(const Region& region, double ml, const Geometry& gr
   });
 }
 
-// The region that a label becomes.
+// The region that a label becomes, by a tool that makes no other labels.
 Result<Region> changed(const LabelToolUse& use, const Label& label, const Region& region,
                        const LabelVoxels& from, const Progress& progress) {
   const Geometry& grid = from.geometry;
@@ -62,16 +63,74 @@ Result<Region> changed(const LabelToolUse& use, const Label& label, const Region
       return difference(region, from.region(use.other));
     case LabelTool::intersect:
       return intersection(region, from.region(use.other));
-    case LabelTool::split:
-      return imaging::on_side(region, grid, use.point_mm, use.normal);
     case LabelTool::mirror:
       return imaging::mirrored(region, grid.size, use.axis);
+    case LabelTool::split:
+    case LabelTool::watershed:
+      break;
   }
   return region;
 }
 
+Result<std::vector<Region>> sides(const LabelToolUse& use, const Label& label, const Region& region,
+                                  const LabelVoxels& from) {
+  std::vector<Region> both{imaging::on_side(region, from.geometry, use.point_mm, use.normal)};
+  both.push_back(difference(region, both.front()));
+  if (both.front().empty() || both.back().empty())
+    return fail(ErrorKind::usage, "the plane does not cut label {}", label.name);
+  return both;
+}
+
+// The largest first, without seeds that lie beside the region.
+Result<std::vector<Region>> basins(const LabelToolUse& use, const Label& label, const Region& region,
+                                   const LabelVoxels& from, const Progress& progress) {
+  const Region seeds = from.region(use.other);
+  auto parts = imaging::watershed(region, seeds, from.geometry, progress);
+  if (!parts) return parts;
+  std::erase_if(*parts, [&](const Region& part) { return intersection(part, region).empty(); });
+  if (parts->size() < 2)
+    return fail(ErrorKind::usage, "label {} is divided by two islands of seeds or more, and {} touch it",
+                label.name, parts->size());
+  std::stable_sort(parts->begin(), parts->end(),
+                   [](const Region& a, const Region& b) { return a.count() > b.count(); });
+  Region rest = region;  // that no seed reaches stays with the label
+  for (const Region& part : *parts) rest = difference(rest, part);
+  parts->front() = united(parts->front(), rest);
+  return parts;
+}
+
+Result<std::vector<Region>> parts_of(const LabelToolUse& use, const Label& label, const Region& region,
+                                     const LabelVoxels& from, const Progress& progress) {
+  if (use.tool == LabelTool::split) return sides(use, label, region, from);
+  if (use.tool == LabelTool::watershed) return basins(use, label, region, from, progress);
+  auto result = changed(use, label, region, from, progress);
+  if (!result) return pass_on(result);
+  std::vector<Region> one;
+  one.push_back(std::move(*result));
+  return one;
+}
+
 bool has_other(LabelTool tool) {
-  return tool == LabelTool::add || tool == LabelTool::subtract || tool == LabelTool::intersect;
+  return tool == LabelTool::add || tool == LabelTool::subtract || tool == LabelTool::intersect ||
+         tool == LabelTool::watershed;
+}
+
+Status check_other(const LabelToolUse& use, const std::vector<std::uint8_t>& labels,
+                   const LabelVoxels& from) {
+  if (!has_other(use.tool)) return {};
+  const bool is_surface = use.other == kTheSurface;
+  if (is_surface && use.tool == LabelTool::watershed)
+    return fail(ErrorKind::usage, "the seeds must be islands of another label");
+  if (is_surface && from.phi == nullptr) return fail(ErrorKind::usage, "there is no surface");
+  if (is_surface) return {};
+  const auto other = std::find_if(from.list.begin(), from.list.end(),
+                                  [&](const Label& label) { return label.id == use.other; });
+  if (other == from.list.end()) return fail(ErrorKind::usage, "there is no label {}", use.other);
+  if (use.tool != LabelTool::watershed) return {};
+  if (other->locked) return fail(ErrorKind::usage, "label {} is locked", other->name);
+  if (std::find(labels.begin(), labels.end(), use.other) != labels.end())
+    return fail(ErrorKind::usage, "the seeds must be islands of another label");
+  return {};
 }
 
 }  // namespace
@@ -87,12 +146,10 @@ Result<std::vector<LabelRegion>> use_tool(const LabelToolUse& use, const std::ve
     return std::find_if(from.list.begin(), from.list.end(),
                         [&](const Label& label) { return label.id == id; });
   };
-  if (has_other(use.tool)) {
-    if (use.other == kTheSurface && from.phi == nullptr) return fail(ErrorKind::usage, "there is no surface");
-    if (use.other != kTheSurface && find(use.other) == from.list.end())
-      return fail(ErrorKind::usage, "there is no label {}", use.other);
-  }
+  TIDEMARK_TRY(check_other(use, labels, from));
   std::vector<LabelRegion> results;
+  // Seeds become voxels of the parts that they made.
+  if (use.tool == LabelTool::watershed) results.push_back({use.other, {}, from.region(use.other)});
   for (std::size_t n = 0; n < labels.size(); ++n) {
     const auto label = find(labels[n]);
     if (label == from.list.end()) return fail(ErrorKind::usage, "there is no label {}", labels[n]);
@@ -100,17 +157,16 @@ Result<std::vector<LabelRegion>> use_tool(const LabelToolUse& use, const std::ve
     const Region region = from.region(label->id);
     if (region.empty() && use.tool != LabelTool::add)
       return fail(ErrorKind::usage, "label {} has no voxel", label->name);
-    auto result = changed(use, *label, region, from,
+    auto parts = parts_of(use, *label, region, from,
                           progress.part(static_cast<int>(n), static_cast<int>(labels.size())));
-    if (!result) return pass_on(result);
-    if (use.tool == LabelTool::split) {
-      Region behind = difference(region, *result);
-      if (behind.empty() || result->empty())
-        return fail(ErrorKind::usage, "the plane does not cut label {}", label->name);
-      results.push_back({label->id, {}, std::move(*result)});
-      results.push_back({0, label->name + " 2", std::move(behind)});
-    } else {
-      results.push_back({label->id, {}, std::move(*result)});
+    if (!parts) return pass_on(parts);
+    for (std::size_t part = 0; part < parts->size(); ++part) {
+      if (use.tool == LabelTool::watershed)
+        results.front().region = difference(results.front().region, (*parts)[part]);
+      const bool is_new = part > 0;
+      results.push_back({is_new ? std::uint8_t{0} : label->id,
+                         is_new ? fmt::format("{} {}", label->name, part + 1) : std::string(),
+                         std::move((*parts)[part])});
     }
     if (progress.cancelled()) return cancelled_error();
   }

@@ -25,8 +25,9 @@ enum class LabelTool {
   add,             // the inside of the surface, or another label
   subtract,
   intersect,
-  split,   // by a plane: what is behind it becomes a new label
-  mirror,  // at the middle of the grid, along an axis
+  split,      // by a plane: what is behind it becomes a new label
+  watershed,  // at its necks, from the islands of another label: each gets a label
+  mirror,     // at the middle of the grid, along an axis
 };
 
 inline constexpr std::uint8_t kTheSurface = 0;  // in place of a label
@@ -34,10 +35,12 @@ inline constexpr std::uint8_t kTheSurface = 0;  // in place of a label
 // A tool with its numbers. Those that it has no use for are ignored.
 struct LabelToolUse {
   LabelTool tool = LabelTool::largest_island;
-  double amount = 1.0;               // mm or ml
-  int axis = 2;                      // of the grid: 0, 1, 2
-  Index3 voxel{0};                   // island_here
-  std::uint8_t other = kTheSurface;  // of add, subtract, intersect: another label, or the surface
+  double amount = 1.0;  // mm or ml
+  int axis = 2;         // of the grid: 0, 1, 2
+  Index3 voxel{0};      // island_here
+  // Of add, subtract, intersect: another label, or the surface. Of watershed: the label of the seeds, which
+  // keeps those that are beside the label.
+  std::uint8_t other = kTheSurface;
   glm::dvec3 point_mm{0.0};          // a point of the plane of split (LPS)
   glm::dvec3 normal{0.0, 0.0, 1.0};  // what it points to stays
   bool operator==(const LabelToolUse&) const = default;

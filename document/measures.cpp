@@ -40,6 +40,22 @@ Json values(const ImageValues& image) {
 
 }  // namespace
 
+Result<std::vector<MeasuredImage>> images_on(const Geometry& grid, MeasuredImage study,
+                                             const std::vector<std::shared_ptr<const CaseImage>>& images,
+                                             const Progress& progress) {
+  std::vector<MeasuredImage> measured{std::move(study)};
+  for (const auto& image : images) {
+    if (progress.cancelled()) return cancelled_error();
+    if (image->volume == nullptr) continue;
+    auto voxels = on_grid(*image, grid);
+    const bool is_elsewhere = !voxels && voxels.error().kind == ErrorKind::usage;
+    if (is_elsewhere) continue;
+    if (!voxels) return pass_on(voxels);
+    measured.push_back({image->name, std::move(*voxels)});
+  }
+  return measured;
+}
+
 Result<Measures> measure(const Region& region, const Geometry& grid, const std::vector<MeasuredImage>& images,
                          const solver::Field* phi, const Progress& progress) {
   const auto diameters = imaging::diameters_of(region, grid);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "document/case_image.h"
 #include "imaging/regions/diameters.h"
 #include "imaging/regions/inside_values.h"
 #include "solver/field.h"
@@ -18,6 +19,12 @@ struct MeasuredImage {
   std::string name;
   std::shared_ptr<const Volume> volume;
 };
+
+// Those of the images that have voxels on the grid, behind the study's own. One that lies elsewhere has none
+// inside of a region. Fails (ErrorKind::cancelled), and (ErrorKind::capability) for lack of memory.
+Result<std::vector<MeasuredImage>> images_on(const Geometry& grid, MeasuredImage study,
+                                             const std::vector<std::shared_ptr<const CaseImage>>& images,
+                                             const Progress& progress = {});
 
 struct ImageValues {
   std::string image;  // its name

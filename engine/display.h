@@ -110,11 +110,25 @@ struct DrawnMarks {
   bool operator==(const DrawnMarks&) const = default;
 };
 
-// The label that the brush paints.
+// How a label is painted in slices: under the mouse, or inside of its way, or of lines along edges between
+// clicks. In 3D it is the brush always.
+enum class LabelWay { brush, outline, livewire };
+
+// Values of the source.
+struct ValueRange {
+  double low = 0.0;
+  double high = 0.0;
+
+  [[nodiscard]] bool contains(double value) const { return value >= low && value <= high; }
+  bool operator==(const ValueRange&) const = default;
+};
+
+// What paints labels.
 struct LabelBrush {
   std::uint8_t label = 0;  // 0, or one that is gone: the newest
   document::Take take = document::Take::free_voxels;
-  bool outlines = false;  // slices: the mouse goes around what is painted
+  LabelWay way = LabelWay::brush;
+  std::optional<ValueRange> values;  // only voxels with these change
 
   bool operator==(const LabelBrush&) const = default;
 };

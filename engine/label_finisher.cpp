@@ -17,7 +17,7 @@ Result<Preview> computed(LabelPreview preview, const Progress& progress) {
   preview.regions = std::move(*regions);
   const double voxel_ml = preview.from.geometry.voxel_volume_ml();
   std::array<bool, 256> chosen{};
-  for (const std::uint8_t label : preview.labels) chosen[label] = true;
+  for (const document::LabelRegion& region : preview.regions) chosen[region.label] = region.label != 0;
   if (const auto& voxels = preview.from.voxels) {
     const auto count =
         std::count_if(voxels->begin(), voxels->end(), [&](std::uint8_t id) { return chosen[id]; });

@@ -13,7 +13,7 @@ struct LabelPreview {
   std::vector<std::uint8_t> labels;
   document::LabelVoxels from;
   std::vector<document::LabelRegion> regions;
-  double before_ml = 0.0;  // of those labels
+  double before_ml = 0.0;  // of all labels that change
   double after_ml = 0.0;   // of all that they would become
 };
 

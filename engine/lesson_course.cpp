@@ -1,6 +1,7 @@
 #include "engine/lesson_course.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/case_proxy.h"
 
@@ -27,10 +28,11 @@ LessonCourse::LessonCourse(document::Lesson lesson, std::filesystem::path folder
   cases_.reserve(lesson_.parts.size());  // an attempt points into it
   connect(&loader_, &StudyLoader::loaded, this, [this](const std::shared_ptr<const LoadedStudy>& study) {
     auto changed = std::make_shared<LoadedStudy>(*study);
-    changed->parameters = lesson_.parts[attempt_->part].attempt->parameters;
+    changed->parameters = part().attempt ? part().attempt->parameters : lesson_.parameters;
     emit case_wanted(changed);
   });
   connect(&loader_, &StudyLoader::failed, this, [this](const QString& message) {
+    opening_.reset();
     end_attempt();
     emit failed(message);
   });
@@ -51,6 +53,7 @@ void LessonCourse::go_to(std::size_t index) {
   measuring_ = false;
   index_ = index;
   emit changed();
+  open_study();
 }
 
 void LessonCourse::go_on_from(const document::LessonProgress& progress) {
@@ -111,14 +114,24 @@ CaseProxy* LessonCourse::proxy() const {
   return found ? found->proxy.data() : nullptr;
 }
 
-void LessonCourse::load(const document::LessonStudy& study) {
+void LessonCourse::open_study() {
+  const document::LessonStudy& study = lesson_.study_of(part());
+  if (opening_ == study) return;
+  close_study();
+  if (case_of(index_)) return;
+  opening_ = study;
   if (study.phantom.empty()) return loader_.load(folder_ / study.file, {});
   loader_.make_phantom(study.phantom);
 }
 
+void LessonCourse::close_study() {
+  loader_.cancel();
+  opening_.reset();
+}
+
 void LessonCourse::take_case(CaseProxy& proxy) {
-  if (!attempt_) return;
-  const document::LessonStudy& study = lesson_.study_of(lesson_.parts[attempt_->part]);
+  if (!opening_) return;
+  const document::LessonStudy study = *std::exchange(opening_, std::nullopt);
   cases_.erase(std::remove_if(cases_.begin(), cases_.end(),
                               [&](const LessonCase& one) { return one.study == study || !one.proxy; }),
                cases_.end());
@@ -129,7 +142,8 @@ void LessonCourse::take_case(CaseProxy& proxy) {
   });
   connect(&proxy, &CaseProxy::state_changed, this, &LessonCourse::changed);
   connect(&proxy, &CaseProxy::failed, this, &LessonCourse::end_attempt);
-  begin();
+  if (attempt_) return begin();
+  emit changed();
 }
 
 // Tries.
@@ -145,7 +159,7 @@ void LessonCourse::attempt() {
   if (case_of(index_)) {
     begin();
   } else {
-    load(lesson_.study_of(part()));
+    open_study();
   }
   emit changed();
 }
@@ -231,7 +245,7 @@ void LessonCourse::end_attempt() {
 
 void LessonCourse::stop() {
   if (!attempt_) return;
-  loader_.cancel();
+  close_study();
   if (attempt_->on && attempt_->on->proxy) {
     attempt_->on->proxy->pause();
     attempt_->on->proxy->set_pace(0.0);

@@ -33,7 +33,9 @@ class LessonCourse : public QObject {
   [[nodiscard]] std::size_t index() const { return index_; }
   [[nodiscard]] const document::LessonPart& part() const { return lesson_.parts[index_]; }
   [[nodiscard]] const document::PartAnswers& given() const { return answers_.parts[index_]; }
-  void go_to(std::size_t index);  // of a part
+  void go_to(std::size_t index);  // of a part, whose study opens
+  // Opens the study of the part that is shown, to be looked at, unless it is open: see case_wanted().
+  void open_study();
 
   // What is kept for a crash. Cases are not part of it: a try that goes on from another is carried out with
   // those before it.
@@ -52,7 +54,7 @@ class LessonCourse : public QObject {
   [[nodiscard]] bool can_answer() const;
 
   // Sets the part's level set up and plays it, after those that it goes on from where the case is not there.
-  // The first time it opens a case: see case_wanted().
+  // Where the study is not open it opens first.
   void attempt();
   [[nodiscard]] bool can_attempt() const;
   [[nodiscard]] bool attempting() const { return attempt_ != nullptr; }
@@ -73,7 +75,7 @@ class LessonCourse : public QObject {
 
  signals:
   void changed();
-  // The study of a try, to be opened: the receiver gives its case to take_case().
+  // The study of a part, to be opened: the receiver gives its case to take_case().
   void case_wanted(const std::shared_ptr<const tidemark::engine::LoadedStudy>& study);
   // A try begins on this case, which should be seen.
   void case_used(tidemark::engine::CaseProxy& proxy, const tidemark::document::LessonTry& attempt);
@@ -95,7 +97,7 @@ class LessonCourse : public QObject {
   [[nodiscard]] LessonCase* case_of(std::size_t part);
   [[nodiscard]] const LessonCase* case_of(std::size_t part) const;
   [[nodiscard]] std::size_t before(std::size_t part) const;  // that it goes on from
-  void load(const document::LessonStudy& study);
+  void close_study();                                        // that is being opened
   void begin();
   void try_next();
   void wait_for_source();
@@ -112,6 +114,7 @@ class LessonCourse : public QObject {
   std::vector<char> tried_;
   std::vector<LessonCase> cases_;
   std::unique_ptr<Attempt> attempt_;
+  std::optional<document::LessonStudy> opening_;
   StudyLoader loader_;
   LessonMeter meter_;
   bool measuring_ = false;

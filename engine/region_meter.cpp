@@ -21,15 +21,10 @@ using Answer = std::shared_ptr<const document::Measures>;
 
 Result<Answer> computed(const Wanted& wanted, const Progress& progress) {
   const Geometry& grid = wanted.from.geometry;
-  std::vector<document::MeasuredImage> images{wanted.study};
-  for (const auto& image : wanted.images) {
-    if (progress.cancelled()) return cancelled_error();
-    auto voxels = document::on_grid(*image, grid);
-    if (!voxels) return pass_on(voxels);
-    images.push_back({image->name, std::move(*voxels)});
-  }
+  const auto images = document::images_on(grid, wanted.study, wanted.images, progress);
+  if (!images) return pass_on(images);
   const solver::Field* const phi = wanted.label == document::kTheSurface ? wanted.from.phi.get() : nullptr;
-  auto measures = document::measure(wanted.from.region(wanted.label), grid, images, phi, progress);
+  auto measures = document::measure(wanted.from.region(wanted.label), grid, *images, phi, progress);
   if (!measures) return pass_on(measures);
   return std::make_shared<const document::Measures>(std::move(*measures));
 }
@@ -44,9 +39,7 @@ void RegionMeter::begin(CaseProxy& proxy, std::uint8_t label) {
                 label,
                 {proxy.name().toStdString(), proxy.study().volume},
                 {}};
-  for (const ShownImage& shown : proxy.display().settings().images) {
-    if (shown.image->volume) wanted.images.push_back(shown.image);
-  }
+  for (const ShownImage& shown : proxy.display().settings().images) wanted.images.push_back(shown.image);
   run([wanted = std::move(wanted)](const Progress& progress) { return computed(wanted, progress); },
       [this](const Answer& measures) { emit measured(measures); });
 }

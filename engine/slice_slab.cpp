@@ -70,19 +70,16 @@ std::vector<std::int64_t> SliceSlab::disc(glm::dvec3 centre_mm, double radius_mm
 // Row by row along the first of the slice's two axes; across it a column of the grid has the voxels near the
 // plane.
 std::vector<std::int64_t> SliceSlab::inside(const std::vector<glm::dvec3>& polygon_mm) const {
-  const int u = axes_[0];
-  const int v = axes_[1];
   std::vector<glm::dvec2> corners;
   double low = std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::lowest();
   for (const glm::dvec3 point_mm : polygon_mm) {
-    const glm::dvec3 voxel = geometry_.to_voxel(point_mm);
-    corners.emplace_back(voxel[u], voxel[v]);
-    low = std::min(low, voxel[v]);
-    high = std::max(high, voxel[v]);
+    corners.push_back(column_of(point_mm));
+    low = std::min(low, corners.back().y);
+    high = std::max(high, corners.back().y);
   }
   const auto first_row = std::max<std::int64_t>(std::llround(std::ceil(low)), 0);
-  const auto last_row = std::min<std::int64_t>(std::llround(std::floor(high)), geometry_.size[v] - 1);
+  const auto last_row = std::min<std::int64_t>(std::llround(std::floor(high)), geometry_.size[axes_[1]] - 1);
   std::vector<std::int64_t> voxels;
   std::vector<double> crossings;
   for (std::int64_t row = first_row; row <= last_row; ++row) {
@@ -97,7 +94,7 @@ std::vector<std::int64_t> SliceSlab::inside(const std::vector<glm::dvec3>& polyg
     for (std::size_t n = 0; n + 1 < crossings.size(); n += 2) {
       const auto from = std::max<std::int64_t>(std::llround(std::ceil(crossings[n])), 0);
       const auto to =
-          std::min<std::int64_t>(std::llround(std::floor(crossings[n + 1])), geometry_.size[u] - 1);
+          std::min<std::int64_t>(std::llround(std::floor(crossings[n + 1])), geometry_.size[axes_[0]] - 1);
       for (std::int64_t column = from; column <= to; ++column) add_near(column, row, voxels);
     }
   }
@@ -106,13 +103,39 @@ std::vector<std::int64_t> SliceSlab::inside(const std::vector<glm::dvec3>& polyg
   return voxels;
 }
 
+glm::dvec2 SliceSlab::column_of(glm::dvec3 place_mm) const {
+  const glm::dvec3 voxel = geometry_.to_voxel(place_mm);
+  return {voxel[axes_[0]], voxel[axes_[1]]};
+}
+
+double SliceSlab::depth_of(glm::dvec2 column) const {
+  const double in_slice_mm =
+      from_mm_ + column.x * per_voxel_mm_[axes_[0]] + column.y * per_voxel_mm_[axes_[1]];
+  return -in_slice_mm / per_voxel_mm_[axes_[2]];
+}
+
+std::optional<Index3> SliceSlab::voxel_of(std::int64_t u, std::int64_t v) const {
+  Index3 voxel(0);
+  voxel[axes_[0]] = u;
+  voxel[axes_[1]] = v;
+  voxel[axes_[2]] = std::llround(depth_of({u, v}));
+  return geometry_.contains(voxel) ? std::optional(voxel) : std::nullopt;
+}
+
+glm::dvec3 SliceSlab::place_of(glm::dvec2 column) const {
+  glm::dvec3 voxel(0.0);
+  voxel[axes_[0]] = column.x;
+  voxel[axes_[1]] = column.y;
+  voxel[axes_[2]] = depth_of(column);
+  return geometry_.to_patient(voxel);
+}
+
 void SliceSlab::add_near(std::int64_t column, std::int64_t row, std::vector<std::int64_t>& voxels) const {
   const int across = axes_[2];
   Index3 voxel(0);
   voxel[axes_[0]] = column;
   voxel[axes_[1]] = row;
-  const std::int64_t middle =
-      std::llround(-distance_mm(voxel) / per_voxel_mm_[across]);  // nearest to the plane
+  const std::int64_t middle = std::llround(depth_of({column, row}));
   for (voxel[across] = middle - 1; voxel[across] <= middle + 1; ++voxel[across]) {
     if (geometry_.contains(voxel) && contains(voxel)) voxels.push_back(geometry_.offset(voxel));
   }

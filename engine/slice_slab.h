@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/geometry.h"
@@ -27,6 +29,14 @@ class SliceSlab {
   // The smaller distance of voxels in the slice.
   [[nodiscard]] double finest_mm() const;
 
+  // Columns of voxels run across the slice. (u, v): a place on the first two of axes(), in voxels.
+  [[nodiscard]] const Geometry& geometry() const { return geometry_; }
+  [[nodiscard]] glm::dvec2 column_of(glm::dvec3 place_mm) const;
+  // The voxel of a column that is nearest to the plane; none: the plane leaves the grid there.
+  [[nodiscard]] std::optional<Index3> voxel_of(std::int64_t u, std::int64_t v) const;
+  // Where a column meets the plane (LPS, mm).
+  [[nodiscard]] glm::dvec3 place_of(glm::dvec2 column) const;
+
   // The offsets of its voxels within a disc around a point of the plane, and of the voxel there; ascending.
   [[nodiscard]] std::vector<std::int64_t> disc(glm::dvec3 centre_mm, double radius_mm) const;
   // Those of its voxels that a polygon in the plane surrounds an odd number of times; likewise, ascending.
@@ -39,6 +49,8 @@ class SliceSlab {
   }
   // The slab's voxels of a column across the slice.
   void add_near(std::int64_t column, std::int64_t row, std::vector<std::int64_t>& voxels) const;
+  // How far along the third axis a column meets the plane, in voxels.
+  [[nodiscard]] double depth_of(glm::dvec2 column) const;
   [[nodiscard]] bool contains(double distance_mm) const {
     return distance_mm > -half_mm_ && distance_mm <= half_mm_;
   }

@@ -70,7 +70,7 @@ try_without_x() {
   echo "-- tidemark --install-menu, --uninstall"
   as_user "$bin/tidemark" --install-menu >/dev/null
   local entry=$home/.local/share/applications/tidemark.desktop
-  grep -qxF "Exec=\"$bin/tidemark\" %F" "$entry" || fail "the menu entry starts something else: $(grep ^Exec= "$entry")"
+  grep -qxF "Exec=\"$bin/tidemark\" %U" "$entry" || fail "the menu entry starts something else: $(grep ^Exec= "$entry")"
   if command -v desktop-file-validate >/dev/null; then desktop-file-validate "$entry"; fi
   as_user "$bin/tidemark" --uninstall >/dev/null
   if find "$home/.local" -name 'tidemark*' | grep .; then fail "--uninstall leaves files"; fi

@@ -12,9 +12,27 @@ namespace {
 
 const QString kLocked = QStringLiteral("locked");  // a list of names
 
+struct Found {
+  SettingOrigin origin = SettingOrigin::program;
+  bool locked = false;
+  QVariant value;  // invalid: nobody has set it
+};
+
+// The user's own value stands above the site's, unless the site has locked it.
+Found found_setting(const QString& name) {
+  const QSettings site(settings::site_file(), QSettings::IniFormat);
+  const bool is_sites = site.contains(name);
+  const bool locked = is_sites && site.value(kLocked).toStringList().contains(name);
+  const QSettings own;
+  if (!locked && own.contains(name)) return {SettingOrigin::user, false, own.value(name)};
+  if (is_sites) return {SettingOrigin::site, locked, site.value(name)};
+  return {};
+}
+
 template <class Described>
 SettingText described(const Described& setting) {
-  return {setting.name(), setting.text(), origin_of(setting.name()), is_locked(setting.name())};
+  const Found found = found_setting(setting.name());
+  return {setting.name(), setting.text(), found.origin, found.locked};
 }
 
 // As QSettings reads it back.
@@ -41,26 +59,15 @@ QString origin_text(const SettingText& setting) {
 }  // namespace
 
 bool is_locked(const QString& name) {
-  const QSettings site(settings::site_file(), QSettings::IniFormat);
-  return site.contains(name) && site.value(kLocked).toStringList().contains(name);
+  return found_setting(name).locked;
 }
 
 SettingOrigin origin_of(const QString& name) {
-  if (QSettings().contains(name) && !is_locked(name)) return SettingOrigin::user;
-  const QSettings site(settings::site_file(), QSettings::IniFormat);
-  return site.contains(name) ? SettingOrigin::site : SettingOrigin::program;
+  return found_setting(name).origin;
 }
 
 QVariant setting_value(const QString& name) {
-  switch (origin_of(name)) {
-    case SettingOrigin::program:
-      break;
-    case SettingOrigin::site:
-      return QSettings(settings::site_file(), QSettings::IniFormat).value(name);
-    case SettingOrigin::user:
-      return QSettings().value(name);
-  }
-  return {};
+  return found_setting(name).value;
 }
 
 void set_setting(const QString& name, const QVariant& value) {

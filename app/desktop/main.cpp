@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
   parser.addHelpOption();
   parser.addVersionOption();
   parser.addPositionalArgument(
-      "studies", QCoreApplication::translate("main", "Folders, image files or session files to open."),
+      "studies", QCoreApplication::translate("main", "Folders, image files, session files or links to open."),
       "[studies...]");
   const QCommandLineOption diagnostics(
       "diagnostics", QCoreApplication::translate("main", "Say what this computer offers, and end."));

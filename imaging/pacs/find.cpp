@@ -176,7 +176,8 @@ Result<Found<Entry>> collect(const PacsServer& server, Question& question, const
 Result<Found<PacsStudy>> find_studies(const PacsServer& server, const StudyQuery& query,
                                       const PacsLimits& limits, const Progress& progress) {
   return without_exceptions([&]() -> Result<Found<PacsStudy>> {
-    for (const auto& [name, value] : {std::pair{"patient name", &query.patient_name},
+    for (const auto& [name, value] : {std::pair{"study UID", &query.uid},
+                                      {"patient name", &query.patient_name},
                                       {"patient ID", &query.patient_id},
                                       {"modality", &query.modality},
                                       {"description", &query.description}}) {
@@ -185,7 +186,7 @@ Result<Found<PacsStudy>> find_studies(const PacsServer& server, const StudyQuery
     auto dates = date_range(query.date_from, query.date_to);
     if (!dates) return pass_on(dates);
     Question question("STUDY");
-    question.put(DCM_StudyInstanceUID);
+    question.put(DCM_StudyInstanceUID, query.uid);
     question.put(DCM_PatientName, query.patient_name);
     question.put(DCM_PatientID, query.patient_id);
     question.put(DCM_StudyDate, *dates);

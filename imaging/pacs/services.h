@@ -22,6 +22,7 @@ Result<double> pacs_echo(const PacsServer& server, const Progress& progress = {}
 
 // Empty fields are not asked for. Texts may hold the wildcards * and ?.
 struct StudyQuery {
+  std::string uid;           // of the study itself; the other keys may then be empty
   std::string patient_name;  // as DICOM writes it: Family^Given
   std::string patient_id;
   std::string date_from;  // 2004-07-31 or 20040731, inclusive

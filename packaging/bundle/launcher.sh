@@ -36,7 +36,7 @@ install_menu() {
   done
   # The desktop entry's own quoting: in quotation marks, and these four with a backslash. Then each backslash is doubled.
   quoted=$(printf '%s' "$root/bin/tidemark" | sed -e 's/[\\"`$]/\\&/g' -e 's/\\/\\\\/g' -e 's/%/%%/g')
-  EXEC="Exec=\"$quoted\" %F" awk '/^Exec=/ { print ENVIRON["EXEC"]; next } { print }' \
+  EXEC="Exec=\"$quoted\" %U" awk '/^Exec=/ { print ENVIRON["EXEC"]; next } { print }' \
     "$root/share/applications/tidemark.desktop" >"$data/applications/tidemark.desktop"
   tell_desktop
   echo "Tidemark is in the menu of this user. '$0 --uninstall' takes it out again."

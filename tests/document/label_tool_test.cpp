@@ -149,6 +149,47 @@ class LabelToolTest : public QObject {
     QVERIFY(!one.apply(use));  // it does not cut
   }
 
+  void a_label_is_divided_between_the_seeds_of_another() {
+    LabelledCase one;
+    const Region before = one.labels().region(one.liver());
+    // Two seeds in the larger island, one of them beside it, and one far from all.
+    const Region inside = box({3, 3, 4}, {4, 4, 5});
+    const Region beside = box({16, 14, 10}, {16, 15, 11});
+    const Region apart = box({35, 25, 15}, {36, 26, 16});
+    const std::uint8_t seeds = one.labels().add("Seeds").value();
+    QVERIFY(one.labels().accept(united(united(inside, beside), apart), seeds, document::Take::others_too));
+    document::LabelToolUse use = with(LabelTool::watershed);
+    use.other = seeds;
+    QCOMPARE(failure(one.apply(use)), QString());
+    const document::Label& cut = one.labels().list().back();
+    QCOMPARE(cut.name, std::string("Liver 2"));
+    const Region first = one.labels().region(one.liver());
+    const Region second = one.labels().region(cut.id);
+    QVERIFY(united(first, second) == united(before, beside));
+    QVERIFY(intersection(first, second).empty());
+    QVERIFY(first.count() >= second.count());
+    QVERIFY(first.contains({3, 3, 4}) != second.contains({3, 3, 4}));
+    QVERIFY(first.contains({3, 3, 4}) == second.contains({16, 14, 10}));
+    // The other island stays with the label, the seed far away with its own.
+    QVERIFY(first.contains({26, 3, 3}));
+    QVERIFY(one.labels().region(seeds) == apart);
+    QCOMPARE(failure(one.history().undo()), QString());
+    QVERIFY(one.labels().region(one.liver()) == difference(before, inside));
+
+    use.other = document::kTheSurface;
+    QVERIFY(failure(one.apply(use)).contains("another label"));
+    use.other = one.liver();
+    QVERIFY(failure(one.apply(use)).contains("another label"));
+    use.other = one.spleen();  // one island, beside
+    QVERIFY2(failure(one.apply(use)).contains("label Liver is divided by two islands"),
+             qPrintable(failure(one.apply(use))));
+    document::Label locked = *one.labels().find(seeds);
+    locked.locked = true;
+    QVERIFY(one.labels().set(locked));
+    use.other = seeds;
+    QVERIFY(failure(one.apply(use)).contains("label Seeds is locked"));
+  }
+
   void labels_are_combined_with_the_surface_and_each_other() {
     LabelledCase one;
     const Region liver = one.labels().region(one.liver());

@@ -3,6 +3,7 @@
 
 #include "document/checksum.h"
 #include "document/evolution.h"
+#include "document/measures.h"
 #include "document/session_file.h"
 #include "imaging/files/volume_file.h"
 #include "tests/document/cases.h"
@@ -188,6 +189,26 @@ class SessionImagesTest : public QObject {
     QCOMPARE(problems.size(), std::size_t{1});
     QVERIFY(QString::fromStdString(problems.front()).contains("has other voxels now"));
     QVERIFY(!contents.images.front()->volume);
+  }
+
+  void only_images_that_meet_the_grid_are_measured() {
+    const auto study = lumpy_volume();
+    const auto near = image_at("second.nii.gz");
+    auto far = std::make_shared<document::CaseImage>(*near);
+    far->to_case[3] = {5000.0, 0.0, 0.0, 1.0};
+    auto missing = std::make_shared<document::CaseImage>(*near);
+    missing->volume = nullptr;
+    const auto measured = document::images_on(study->geometry, {"study", study}, {far, missing, near});
+    QVERIFY(measured);
+    QCOMPARE(measured->size(), std::size_t{2});
+    QCOMPARE(measured->front().name, std::string("study"));
+    QCOMPARE(measured->back().name, near->name);
+    QVERIFY(measured->back().volume->geometry == study->geometry);
+    std::stop_source stop;
+    stop.request_stop();
+    const auto cancelled =
+        document::images_on(study->geometry, {"study", study}, {near}, Progress{nullptr, stop.get_token()});
+    QVERIFY(!cancelled && cancelled.error().kind == ErrorKind::cancelled);
   }
 
   void bad_images_are_refused_with_their_field() {

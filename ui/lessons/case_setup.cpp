@@ -80,6 +80,23 @@ void take_start(const CaseSetup& setup, const Start* inherited, std::optional<St
   if (!is_same(setup.start, without)) start = setup.start;
 }
 
+// Spheres that were drawn before the first step are seeds and erasers of the start. Those of `events` that
+// are something else stay, as does what was added after something was erased: a start erases last.
+std::vector<document::RecipeEvent> with_spheres_taken(Start& start,
+                                                      const std::vector<document::RecipeEvent>& events) {
+  std::vector<document::RecipeEvent> rest;
+  for (const document::RecipeEvent& event : events) {
+    const auto* paint = std::get_if<document::PaintEvent>(&event.what);
+    const bool adds = paint && paint->brush == solver::Brush::add;
+    if (!paint || event.step > 0 || (adds && !start.erasers.empty())) {
+      rest.push_back(event);
+    } else {
+      (adds ? start.seeds : start.erasers).push_back(paint->sphere);
+    }
+  }
+  return rest;
+}
+
 }  // namespace
 
 bool CaseSetup::is_on(const document::LessonStudy& study, const std::filesystem::path& folder) const {
@@ -107,8 +124,9 @@ void take_setup(engine::CaseProxy& proxy, std::function<void(const CaseSetup&)> 
         setup.smoothed_mm = recipe.final_smoothed_mm();
         setup.steps = recipe.steps;
         setup.is_plain = document::is_plain(document::value_of(recipe.final_drive()));
+        const auto events = with_spheres_taken(setup.start, recipe.events);
         // Before the first step a change is a part of the start's setting, except for strokes.
-        setup.was_edited = std::any_of(recipe.events.begin(), recipe.events.end(), [](const auto& event) {
+        setup.was_edited = std::any_of(events.begin(), events.end(), [](const auto& event) {
           if (std::holds_alternative<document::PaintEvent>(event.what)) return true;
           return event.step > 0 && !std::holds_alternative<document::ResumeEvent>(event.what);
         });

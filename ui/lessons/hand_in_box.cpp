@@ -11,9 +11,11 @@
 
 #include "core/atomic_file.h"
 #include "ui/lessons/answer_sheet.h"
+#include "ui/lessons/lesson_text.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/main/case_files.h"
+#include "ui/results/file_name.h"
 #include "ui/widgets/form.h"
 
 namespace tidemark::ui {
@@ -94,7 +96,10 @@ void HandInBox::ask(const QString& filter, const QString& suffix) {
   QFileDialog dialog(this, tr("Save the answers"), {}, filter);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setDefaultSuffix(suffix.mid(1));
-  dialog.selectFile(tr("answers") + suffix);
+  // Answers of a course come together in a folder.
+  const QString whose =
+      lesson_words(course_.lesson().title) + QStringLiteral(" - ") + name_->text().trimmed();
+  dialog.selectFile(file_name_of(whose) + suffix);
   if (dialog.exec() == QDialog::Accepted && !dialog.selectedFiles().isEmpty()) {
     write(dialog.selectedFiles().constFirst());
   }

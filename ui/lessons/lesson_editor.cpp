@@ -4,6 +4,7 @@
 #include <QScrollBar>
 #include <QSplitter>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <utility>
 
 #include "engine/case_proxy.h"
@@ -15,6 +16,16 @@
 
 namespace tidemark::ui {
 namespace {
+
+// A figure that was added has that range. Whether a surface rests may well be 0.
+bool has_unmeasured_range(const document::Lesson& lesson) {
+  const auto is_unmeasured = [](const document::LessonMeasure& measure) {
+    return measure.low == 0.0 && measure.high == 0.0 && measure.figure != "rests";
+  };
+  return std::any_of(lesson.parts.begin(), lesson.parts.end(), [&](const document::LessonPart& part) {
+    return std::any_of(part.measures.begin(), part.measures.end(), is_unmeasured);
+  });
+}
 
 constexpr int kCheckAfter = 200;  // ms after the last key
 constexpr int kListWidth = 230;
@@ -245,7 +256,11 @@ void LessonEditor::check() {
   QPalette colours = palette();
   if (found) colours.setColor(QPalette::WindowText, problem_colour(palette()));
   problem_->setPalette(colours);
-  problem_->setText(found ? found->sentence : tr("The lesson is complete."));
+  problem_->setText(found ? found->sentence
+                    : has_unmeasured_range(lesson_)
+                        ? tr("The lesson is complete, but for ranges from 0 to 0: press "
+                             "Measure, or type them.")
+                        : tr("The lesson is complete."));
   problem_row_.reset();
   if (found) problem_row_ = found->part ? static_cast<int>(*found->part) + 1 : 0;
   list_->show_titles(problem_row_);

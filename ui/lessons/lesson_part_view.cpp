@@ -131,7 +131,8 @@ void LessonPartView::add_try() {
   row->addWidget(progress_, 1);
   row->addWidget(stop_);
   column_->addLayout(row);
-  try_hint_ = plain_label(tr("Choose an answer first: a prediction counts before the try."));
+  try_hint_ = plain_label(words_ ? tr("Type an answer first: a prediction counts before the try.")
+                                 : tr("Choose an answer first: a prediction counts before the try."));
   column_->addWidget(try_hint_);
   connect(try_, &QPushButton::clicked, &course_, &engine::LessonCourse::attempt);
   connect(stop_, &QPushButton::clicked, &course_, &engine::LessonCourse::stop);

@@ -114,7 +114,7 @@ CaseWindow::CaseWindow(KeptCase kept, Actions& actions, QWidget* parent)
 }
 
 KeptCase CaseWindow::keep() {
-  KeptCase kept{nullptr, std::move(autosave_), arrangement(), session_file, number_, linked_};
+  KeptCase kept{nullptr, std::move(autosave_), arrangement(), session_file, number_};
   // Until there is another window it is shown as it was.
   kept.autosave->ask_view_state_of([state = view_state()] { return state; });
   proxy_->disconnect(this);

@@ -28,7 +28,6 @@ struct KeptCase {
   QByteArray views;                                // their arrangement: show_views()
   QString session_file;
   int number = 1;
-  bool linked = false;
 };
 
 // Child of the MDI area. Views float, tab, close and come back; their arrangement is remembered from one case

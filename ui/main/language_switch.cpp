@@ -1,15 +1,42 @@
 #include "ui/main/language_switch.h"
 
-#include <QGuiApplication>
+#include <QApplication>
+#include <QDialog>
 #include <QTimer>
+#include <algorithm>
 #include <utility>
 
+#include "engine/background_job.h"
 #include "ui/look/language.h"
 #include "ui/main/main_window.h"
 #include "ui/main/teaching.h"
+#include "ui/opening/loading_view.h"
 #include "ui/settings.h"
+#include "ui/widgets/work_line.h"
 
 namespace tidemark::ui {
+namespace {
+
+// Something is being read, written or measured, which its line shows, or a dialog waits for its user: this
+// would end with the window.
+bool is_at_work(const MainWindow& window) {
+  const auto loading = window.findChildren<LoadingView*>();
+  const auto work = window.findChildren<WorkLine*>();
+  const auto dialogs = window.findChildren<QDialog*>();
+  return std::any_of(loading.begin(), loading.end(), [](const auto* line) { return line->isVisible(); }) ||
+         std::any_of(work.begin(), work.end(), [](const auto* line) { return line->working(); }) ||
+         std::any_of(dialogs.begin(), dialogs.end(), [](const auto* dialog) { return dialog->isVisible(); });
+}
+
+// Nothing is on its way that an answer would follow.
+bool is_quiet(const MainWindow& window) {
+  const QList<CaseWindow*> all = window.cases();
+  return !QApplication::activeModalWidget() && !QApplication::activePopupWidget() &&
+         !engine::BackgroundJob::any_running() &&
+         std::none_of(all.begin(), all.end(), [](CaseWindow* one) { return one->proxy().is_asked(); });
+}
+
+}  // namespace
 
 LanguageSwitch::LanguageSwitch(engine::Engine& engine) : engine_(engine) {
   make_window();
@@ -21,7 +48,22 @@ LanguageSwitch::~LanguageSwitch() = default;
 void LanguageSwitch::make_window() {
   use_language(settings::language().get());
   window_ = std::make_unique<MainWindow>(engine_);
-  connect(window_.get(), &MainWindow::language_changed, this, &LanguageSwitch::wait);
+  connect(window_->actions().languages, &QActionGroup::triggered, this,
+          [this](const QAction* language) { choose(*language); });
+}
+
+void LanguageSwitch::choose(const QAction& language) {
+  const QString before = settings::language().get();
+  const QString wanted = language.data().toString();
+  if (wanted == before) return;
+  if (!is_at_work(*window_) && window_->teaching().editor_may_close()) {
+    settings::language().set(wanted);
+    return wait();
+  }
+  for (QAction* action : window_->actions().languages->actions())
+    action->setChecked(action->data().toString() == before);
+  window_->tell(MainWindow::tr(
+      "The language can be changed once dialogs are closed and nothing is being read or written."));
 }
 
 // The menu whose entry it was is still at work, and perhaps a copy against a crash is. Answers that were
@@ -31,7 +73,7 @@ void LanguageSwitch::wait() {
 }
 
 void LanguageSwitch::look(bool was_quiet) {
-  const bool quiet = window_->is_quiet();
+  const bool quiet = is_quiet(*window_);
   if (!quiet || !was_quiet) return QTimer::singleShot(kLookAgainMs, this, [this, quiet] { look(quiet); });
   waiting_ = false;
   change();

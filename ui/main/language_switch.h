@@ -6,6 +6,8 @@
 
 #include "engine/engine.h"
 
+class QAction;
+
 namespace tidemark::ui {
 
 class MainWindow;
@@ -24,6 +26,7 @@ class LanguageSwitch : public QObject {
  private:
   static constexpr int kLookAgainMs = 20;
   void make_window();
+  void choose(const QAction& language);
   void wait();
   void look(bool was_quiet);
   void change();

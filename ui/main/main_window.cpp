@@ -3,27 +3,21 @@
 #include <QAbstractButton>
 #include <QApplication>
 #include <QCloseEvent>
-#include <QDialog>
 #include <QDragEnterEvent>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QKeyEvent>
 #include <QMdiSubWindow>
-#include <QMenu>
-#include <QMenuBar>
 #include <QMimeData>
 #include <QSet>
 #include <QStackedWidget>
-#include <QToolBar>
+#include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "engine/background_job.h"
-#include "engine/case_balance.h"
 #include "engine/message_text.h"
 #include "ui/look/about_dialog.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/main/case_actions.h"
 #include "ui/main/case_area.h"
 #include "ui/main/case_comparison.h"
 #include "ui/main/case_exports.h"
@@ -41,6 +35,7 @@
 #include "ui/main/menus.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
+#include "ui/main/server_query.h"
 #include "ui/main/session_reader.h"
 #include "ui/main/session_writer.h"
 #include "ui/main/status_bar.h"
@@ -54,28 +49,14 @@
 #include "ui/opening/preview_page.h"
 #include "ui/opening/recent_studies.h"
 #include "ui/opening/start_page.h"
+#include "ui/opening/study_link.h"
 #include "ui/opening/study_opener.h"
+#include "ui/pacs/query_dialog.h"
 #include "ui/settings.h"
 #include "ui/views/picture_surface.h"
 #include "ui/views/picture_view.h"
-#include "ui/views/play.h"
-#include "ui/widgets/work_line.h"
 
 namespace tidemark::ui {
-namespace {
-
-// Something is being read, written or measured, which its line shows, or a dialog waits for its user.
-bool is_at_work(const QMainWindow& window) {
-  const auto loading = window.findChildren<LoadingView*>();
-  const auto work = window.findChildren<WorkLine*>();
-  const auto dialogs = window.findChildren<QDialog*>();
-  return std::any_of(loading.begin(), loading.end(), [](const auto* line) { return line->isVisible(); }) ||
-         std::any_of(work.begin(), work.end(), [](const auto* line) { return line->working(); }) ||
-         std::any_of(dialogs.begin(), dialogs.end(), [](const auto* dialog) { return dialog->isVisible(); });
-}
-
-}  // namespace
-
 MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
   setObjectName("main");
   setWindowTitle(tr("Tidemark"));  // Qt adds the name of a case that fills the window
@@ -102,8 +83,8 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   results_ = new CaseResults(*this);
   new TruthReader(*this);
   images_ = new ImageAdder(*this);
+  connect_case_actions(*this);
   connect_files();
-  connect_evolution();
   connect_views();
   connect_windows();
   connect_help();
@@ -168,17 +149,6 @@ void MainWindow::connect_files() {
   connect(actions_->open_session, &QAction::triggered, session_reader_, &SessionReader::ask_and_open);
   connect(session_reader_, &SessionReader::opened, this, &MainWindow::remember);
   connect(session_writer_, &SessionWriter::saved, this, &MainWindow::remember);
-  with_case(actions_->save, [this](CaseWindow& window) { session_writer_->save(window); });
-  with_case(actions_->save_as, [this](CaseWindow& window) { session_writer_->save_as(window); });
-  with_case(actions_->export_mask, [this](CaseWindow& window) { exports_->export_mask(window); });
-  with_case(actions_->export_mesh, [this](CaseWindow& window) { exports_->export_mesh(window); });
-  with_case(actions_->export_picture, [this](CaseWindow& window) { exports_->export_picture(window); });
-  with_case(actions_->export_film, [this](CaseWindow& window) { films_->ask_and_write(window); });
-  with_case(actions_->export_statistics, [this](CaseWindow& window) { exports_->export_statistics(window); });
-  with_case(actions_->export_report, [this](CaseWindow& window) { exports_->export_report(window); });
-  with_case(actions_->export_recipe, [this](CaseWindow& window) { exports_->export_recipe(window); });
-  // The MDI area knows of no active window while a panel or a dialog has the keyboard.
-  with_case(actions_->close, [](CaseWindow& window) { window.parentWidget()->close(); });
   connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
 }
 
@@ -193,11 +163,23 @@ void MainWindow::ask_for_file() {
 }
 
 void MainWindow::open(const QString& path) {
-  if (path.endsWith(".tidemark")) {
+  if (path.startsWith("file:///")) {
+    open(QUrl(path).toLocalFile());  // as file managers call a program that opens links
+  } else if (StudyLink::is_link(path)) {
+    open_link(path);
+  } else if (path.endsWith(".tidemark")) {
     session_reader_->open(path);
   } else {
     opener_->open(path);
   }
+}
+
+void MainWindow::open_link(const QString& text) {
+  const auto link = StudyLink::parse(text);
+  if (!link) return tell(engine::message_text(link.error()), kAboutOpening);
+  if (!link->path.isEmpty()) return open(link->path);
+  const Status asked = query_server(*this).ask(link->server, link->query);
+  if (!asked) tell(engine::message_text(asked.error()), kAboutOpening);
 }
 
 void MainWindow::open_recent(const RecentStudy& study) {
@@ -251,13 +233,6 @@ QMdiSubWindow* MainWindow::place(CaseWindow* window) {
   return area_->add(window);
 }
 
-bool MainWindow::is_quiet() const {
-  const QList<CaseWindow*> all = cases();
-  return !QApplication::activeModalWidget() && !QApplication::activePopupWidget() &&
-         !engine::BackgroundJob::any_running() &&
-         std::none_of(all.begin(), all.end(), [](CaseWindow* one) { return one->proxy().is_asked(); });
-}
-
 MainWindow::Kept MainWindow::keep() {
   keep_arrangement();
   Kept kept;
@@ -272,32 +247,31 @@ MainWindow::Kept MainWindow::keep() {
   const CaseWindow* active = std::exchange(active_, nullptr);
   follow_case();
   const QList<CaseWindow*> all = cases();
-  std::vector<bool> linked;
-  for (CaseWindow* window : all) linked.push_back(window->linked());
+  kept.active = all.indexOf(active);
+  for (qsizetype n = 0; n < all.size(); ++n) {
+    if (all[n]->linked()) kept.linked << n;
+  }
   links_->unlink();
   for (CaseWindow* window : all) {
-    if (window == active) kept.active = static_cast<qsizetype>(kept.cases.size());
     window->disconnect(session_reader_);  // which would take its going for the user's wish
     kept.cases.push_back(window->keep());
-    kept.cases.back().linked = linked[kept.cases.size() - 1];
   }
   return kept;
 }
 
 void MainWindow::take_over(Kept kept) {
   QList<CaseWindow*> taken;
-  QList<CaseWindow*> linked;
   executor_ = kept.executor;
   actions_->tabs->setChecked(kept.tabs);
   for (KeptCase& one : kept.cases) {
-    const bool is_linked = one.linked;
     const QByteArray views = one.views;
     auto* window = new CaseWindow(std::move(one), *actions_);
     taken << window;
-    if (is_linked) linked << window;
     area_->show_child(*place(window));
     window->show_views(views);
   }
+  QList<CaseWindow*> linked;
+  for (const qsizetype place : kept.linked) linked << taken[place];
   links_->link(linked);
   {
     const QSignalBlocker as_they_play(actions_->lock_step);
@@ -392,52 +366,7 @@ void MainWindow::follow_case() {
   actions_->link->setChecked(active_ && active_->linked());
 }
 
-template <class Do>
-void MainWindow::with_case(QAction* action, Do act) {
-  connect(action, &QAction::triggered, this, [this, act] {
-    if (active_) act(*active_);
-  });
-}
-
-void MainWindow::connect_evolution() {
-  with_case(actions_->play, [](CaseWindow& window) { toggle_play(window.proxy()); });
-  with_case(actions_->step, [](CaseWindow& window) { window.proxy().step(); });
-  with_case(actions_->step_back, [](CaseWindow& window) { window.proxy().step_back(); });
-  with_case(actions_->restart, [](CaseWindow& window) { window.proxy().restart(); });
-  with_case(actions_->fastest_place, [](CaseWindow& window) { window.proxy().balance().ask_fastest(); });
-  connect(actions_->passes, &QAction::triggered, this, [this] { panels_->show("passes"); });
-  with_case(actions_->forces, [](CaseWindow& window) {
-    window.proxy().display().change(
-        [](engine::DisplaySettings& settings) { settings.forces = !settings.forces; });
-  });
-  with_case(actions_->undo, [](CaseWindow& window) { window.proxy().undo(); });
-  with_case(actions_->redo, [](CaseWindow& window) { window.proxy().redo(); });
-  with_case(actions_->last_tool, [](CaseWindow& window) {
-    window.proxy().display().choose_tool(window.proxy().display().settings().last_tool);
-  });
-  connect(actions_->tools, &QActionGroup::triggered, this, [this](QAction* chosen) {
-    for (CaseWindow* window : cases())
-      window->proxy().display().choose_tool(static_cast<engine::Tool>(chosen->data().toInt()));
-  });
-}
-
 void MainWindow::connect_views() {
-  connect(actions_->layouts, &QActionGroup::triggered, this, [this](QAction* chosen) {
-    if (active_) active_->set_layout(static_cast<ViewLayout>(chosen->data().toInt()));
-  });
-  with_case(actions_->reset_view, [](CaseWindow& window) { window.reset_views(); });
-  with_case(actions_->clip, [](CaseWindow& window) {
-    window.proxy().display().change(
-        [](engine::DisplaySettings& settings) { settings.clip_on = !settings.clip_on; });
-  });
-  with_case(actions_->swipe, [](CaseWindow& window) {
-    window.proxy().display().change(
-        [](engine::DisplaySettings& settings) { settings.swipe = !settings.swipe; });
-  });
-  with_case(actions_->patient_text, [](CaseWindow& window) {
-    window.proxy().display().change(
-        [](engine::DisplaySettings& settings) { settings.patient_text = !settings.patient_text; });
-  });
   connect(actions_->hide_interface, &QAction::toggled, panels_, &PanelDocks::set_hidden);
   connect(actions_->full_screen, &QAction::toggled, this, [this](bool full) {
     // A window that was maximised is so again afterwards.
@@ -450,21 +379,6 @@ void MainWindow::connect_views() {
   });
   const int theme = static_cast<int>(settings::theme().get());
   for (QAction* action : actions_->themes->actions()) action->setChecked(action->data().toInt() == theme);
-  connect(actions_->languages, &QActionGroup::triggered, this, &MainWindow::change_language);
-}
-
-// Work that is on its way would end with the window.
-void MainWindow::change_language(QAction* chosen) {
-  const QString before = settings::language().get();
-  const QString wanted = chosen->data().toString();
-  if (wanted == before) return;
-  if (!is_at_work(*this) && teaching_->editor_may_close()) {
-    settings::language().set(wanted);
-    return emit language_changed();
-  }
-  for (QAction* action : actions_->languages->actions())
-    action->setChecked(action->data().toString() == before);
-  tell(tr("The language can be changed once dialogs are closed and nothing is being read or written."));
 }
 
 void MainWindow::connect_windows() {
@@ -477,8 +391,6 @@ void MainWindow::connect_windows() {
     area_->cascade();
   });
   connect(actions_->tabs, &QAction::toggled, area_, &CaseArea::set_tabs);
-  with_case(actions_->duplicate_case, [this](CaseWindow& window) { comparison_->duplicate(window); });
-  with_case(actions_->compare_schemes, [this](CaseWindow& window) { comparison_->compare_schemes(window); });
   connect(actions_->link, &QAction::triggered, this,
           [this](bool linked) { links_->link(linked ? cases() : QList<CaseWindow*>{}); });
   connect(links_, &CaseLinks::changed, this, &MainWindow::follow_case);

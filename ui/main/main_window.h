@@ -44,7 +44,7 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(engine::Engine& engine, QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  // A folder, an image file or a session file.
+  // A folder, an image file, a session file, or a link (StudyLink).
   void open(const QString& path);
   void open_phantom(const QString& kind);
   CaseWindow* add_case(const std::shared_ptr<const engine::LoadedStudy>& study,
@@ -54,7 +54,8 @@ class MainWindow : public QMainWindow {
   // Nothing but deleting this one may follow, and the cases must outlive it.
   struct Kept {
     std::vector<KeptCase> cases;
-    qsizetype active = -1;
+    qsizetype active = -1;    // its place among the cases
+    QList<qsizetype> linked;  // likewise
     bool tabs = false;
     bool lock_step = false;
     bool panels_hidden = false;
@@ -63,8 +64,6 @@ class MainWindow : public QMainWindow {
     std::unique_ptr<KeptLesson> lesson;
   };
   [[nodiscard]] Kept keep();
-  // Nothing is on its way that would end with the window.
-  [[nodiscard]] bool is_quiet() const;
   void take_over(Kept kept);
 
   [[nodiscard]] CaseWindow* active_case() const;  // null: none
@@ -73,6 +72,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] Actions& actions() { return *actions_; }
   [[nodiscard]] PanelDocks& panels() { return *panels_; }
   [[nodiscard]] CaseFiles& files() { return *files_; }
+  [[nodiscard]] CaseComparison& comparison() { return *comparison_; }
   [[nodiscard]] CaseExports& exports() { return *exports_; }
   [[nodiscard]] FilmWriter& films() { return *films_; }
   [[nodiscard]] SessionReader& session_reader() { return *session_reader_; }
@@ -87,10 +87,6 @@ class MainWindow : public QMainWindow {
   void tell(const QString& message, const QString& about = {});
   void settle(const QString& about);
 
- signals:
-  // The settings name another language.
-  void language_changed();
-
  protected:
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -104,13 +100,12 @@ class MainWindow : public QMainWindow {
  private:
   void make_centre();
   void connect_files();
-  void connect_evolution();
   void connect_views();
   void connect_windows();
-  void change_language(QAction* chosen);
   void connect_help();
   void ask_for_folder();
   void ask_for_file();
+  void open_link(const QString& link);
   void open_recent(const RecentStudy& study);
   QMdiSubWindow* place(CaseWindow* window);
   void show_case(QMdiSubWindow& child, const engine::LoadedStudy& study,
@@ -121,9 +116,6 @@ class MainWindow : public QMainWindow {
   void follow_case();
   void follow_closing();
   void remember(CaseWindow& window);
-  // Calls `action` with the active case, if there is one.
-  template <class Do>
-  void with_case(QAction* action, Do act);
 
   engine::Engine& engine_;
   Actions* actions_;

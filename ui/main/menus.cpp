@@ -19,7 +19,7 @@ namespace {
 void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent) {
   QMenu* file = window.menuBar()->addMenu(MainWindow::tr("&File"));
   file->addActions({actions.open_folder, actions.open_file, actions.open_session, actions.query_server});
-  QObject::connect(actions.query_server, &QAction::triggered, &window, [&window] { query_server(window); });
+  QObject::connect(actions.query_server, &QAction::triggered, &window, [&window] { (void)query_server(window); });
   file->addMenu(recent.make_menu(file));
   auto* phantoms = new PhantomMenu(file);
   phantoms->setTitle(MainWindow::tr("&Phantoms"));

@@ -5,7 +5,7 @@
 
 namespace tidemark::ui {
 
-void query_server(MainWindow& window) {
+QueryDialog& query_server(MainWindow& window) {
   auto* dialog = window.findChild<QueryDialog*>();
   if (dialog == nullptr) {
     dialog = new QueryDialog(imaging::pacs_configuration_file(), &window);
@@ -16,6 +16,7 @@ void query_server(MainWindow& window) {
   dialog->show();
   dialog->raise();
   dialog->activateWindow();
+  return *dialog;
 }
 
 }  // namespace tidemark::ui

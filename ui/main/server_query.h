@@ -4,8 +4,9 @@
 namespace tidemark::ui {
 
 class MainWindow;
+class QueryDialog;
 
 // Shows the window's one query dialog, and opens the series that it brings.
-void query_server(MainWindow& window);
+QueryDialog& query_server(MainWindow& window);
 
 }  // namespace tidemark::ui

@@ -121,11 +121,13 @@ void Teaching::show(std::unique_ptr<engine::LessonCourse> course, const std::fil
   connect(course_.get(), &engine::LessonCourse::changed, this, &Teaching::name_case);
   auto* panel = new LessonPanel(*course_);
   connect(panel, &LessonPanel::end_wanted, this, [this] {
-    const auto answer = QMessageBox::question(
-        &window_, tr("End the lesson"),
-        tr("Answers that were not saved are lost. The cases stay open. End the lesson?"));
+    const bool wanted = !course_->has_news() ||
+                        QMessageBox::question(
+                            &window_, tr("End the lesson"),
+                            tr("Answers that were not saved are lost. The cases stay open. End the lesson?"),
+                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
     // The button that asks goes away with the panel.
-    if (answer == QMessageBox::Yes) QMetaObject::invokeMethod(this, &Teaching::end, Qt::QueuedConnection);
+    if (wanted) QMetaObject::invokeMethod(this, &Teaching::end, Qt::QueuedConnection);
   });
   head_ = new CaseHead;
   named_ = nullptr;
@@ -146,6 +148,7 @@ void Teaching::show(std::unique_ptr<engine::LessonCourse> course, const std::fil
   dock_->show();
   show_->setEnabled(true);
   edit_->setEnabled(true);
+  course_->open_study();
 }
 
 void Teaching::end() {

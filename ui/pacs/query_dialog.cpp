@@ -42,8 +42,9 @@ QueryDialog::QueryDialog(std::filesystem::path servers, QWidget* parent)
   column->addWidget(form_);
   column->addWidget(tree_, 1);
   column->addWidget(make_bottom());
-  connect(search_, &QPushButton::clicked, this, &QueryDialog::search);
-  connect(form_, &QueryForm::submitted, this, &QueryDialog::search);
+  const auto search_for_entered = [this] { search(form_->query()); };
+  connect(search_, &QPushButton::clicked, this, search_for_entered);
+  connect(form_, &QueryForm::submitted, this, search_for_entered);
   connect(open_, &QPushButton::clicked, this, &QueryDialog::retrieve);
   connect(tree_, &StudyTree::opened, this, &QueryDialog::retrieve);
   connect(tree_, &StudyTree::choice_changed, this, &QueryDialog::follow);
@@ -147,12 +148,21 @@ void QueryDialog::set_folder(const QString& folder) {
   folder_->setText(folder);
 }
 
-void QueryDialog::search() {
+Status QueryDialog::ask(const QString& server, const imaging::StudyQuery& query) {
+  if (client_.busy())
+    return fail(ErrorKind::usage, "a server is being asked: open the link again when it has answered");
+  if (!server.isEmpty()) TIDEMARK_TRY(servers_->choose(server));
+  form_->show_query(query);
+  search(query);
+  return {};
+}
+
+void QueryDialog::search(const imaging::StudyQuery& query) {
   if (servers_->server() == nullptr || client_.busy()) return;
   servers_->remember();
   tree_->clear();
   begin(tr("Asking the server"));
-  client_.find_studies(*servers_->server(), form_->query(), servers_->limits());
+  client_.find_studies(*servers_->server(), query, servers_->limits());
 }
 
 void QueryDialog::retrieve() {

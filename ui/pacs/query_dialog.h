@@ -24,6 +24,10 @@ class QueryDialog : public QDialog {
 
   // The folder for what is retrieved; each retrieval makes a new folder in it.
   void set_folder(const QString& folder);
+  // Asks that server, or the chosen one where the name is empty, as if the user had entered the query.
+  // Nothing is brought before the user wants it. Fails (ErrorKind::usage) where there is no such server, or
+  // while one is being asked.
+  Status ask(const QString& server, const imaging::StudyQuery& query);
 
  signals:
   void retrieved(const QString& folder);
@@ -36,7 +40,7 @@ class QueryDialog : public QDialog {
   void connect_client();
   QWidget* make_top();
   QWidget* make_bottom();
-  void search();
+  void search(const imaging::StudyQuery& query);
   void retrieve();
   void choose_folder();
   void begin(const QString& what);  // until rest()

@@ -57,4 +57,14 @@ imaging::StudyQuery QueryForm::query() const {
   return query;
 }
 
+void QueryForm::show_query(const imaging::StudyQuery& query) {
+  const auto text = [](const std::string& entered) { return QString::fromStdString(entered); };
+  name_->setText(text(query.patient_name));
+  id_->setText(text(query.patient_id));
+  from_->setText(text(query.date_from));
+  to_->setText(text(query.date_to));
+  modality_->setCurrentText(text(query.modality));
+  description_->setText(text(query.description));
+}
+
 }  // namespace tidemark::ui

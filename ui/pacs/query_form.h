@@ -14,6 +14,7 @@ class QueryForm : public QWidget {
  public:
   explicit QueryForm(QWidget* parent = nullptr);
   [[nodiscard]] imaging::StudyQuery query() const;
+  void show_query(const imaging::StudyQuery& query);  // but for a study's UID, for which there is no field
 
  signals:
   void submitted();  // by Return

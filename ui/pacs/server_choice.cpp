@@ -72,6 +72,13 @@ const imaging::PacsServer* ServerChoice::server() const {
   return index < 0 ? nullptr : &configuration_.servers[static_cast<std::size_t>(index)];
 }
 
+Status ServerChoice::choose(const QString& name) {
+  const int index = server_->findText(name);
+  if (index < 0) return fail(ErrorKind::usage, "there is no server {}", name.toStdString());
+  server_->setCurrentIndex(index);
+  return {};
+}
+
 void ServerChoice::remember() const {
   settings::server().set(server_->currentText());
 }

@@ -18,6 +18,8 @@ class ServerChoice : public QWidget {
   [[nodiscard]] const imaging::PacsServer* server() const;  // null: there is none
   [[nodiscard]] const imaging::PacsLimits& limits() const { return configuration_.limits; }
   [[nodiscard]] const QString& problem() const { return problem_; }  // why there is none
+  // Fails (ErrorKind::usage) where none has that name.
+  Status choose(const QString& name);
   // The next dialog offers the same server.
   void remember() const;
 

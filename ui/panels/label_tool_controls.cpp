@@ -75,6 +75,10 @@ constexpr std::array kTools{
     ToolText{LabelTool::split, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Split at the clip plane"),
              QT_TRANSLATE_NOOP("tidemark::LabelTool",
                                "What the plane of the 3D view cuts off becomes a label of its own.")},
+    ToolText{LabelTool::watershed, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Split at necks"),
+             QT_TRANSLATE_NOOP("tidemark::LabelTool",
+                               "Paint a seed of another label into each part, and choose that label below. "
+                               "Parts meet where the label is thin.")},
     ToolText{LabelTool::mirror, QT_TRANSLATE_NOOP("tidemark::LabelTool", "Mirror"),
              QT_TRANSLATE_NOOP("tidemark::LabelTool", "At the middle of the volume.")},
 };
@@ -92,7 +96,12 @@ bool has_axis(LabelTool tool) {
 }
 
 bool has_other(LabelTool tool) {
-  return tool == LabelTool::add || tool == LabelTool::subtract || tool == LabelTool::intersect;
+  return tool == LabelTool::add || tool == LabelTool::subtract || tool == LabelTool::intersect ||
+         tool == LabelTool::watershed;
+}
+
+bool has_other_label(LabelTool tool) {
+  return tool == LabelTool::add || tool == LabelTool::watershed;
 }
 
 // The axis of the grid that runs most along an axis of the patient.
@@ -124,7 +133,7 @@ LabelToolControls::LabelToolControls(QWidget* parent) : CaseWidget(parent) {
   axis_->addItem(tr("Coronal"), 1);
   axis_->addItem(tr("Sagittal"), 0);
   connect(axis_, &QComboBox::activated, this, &LabelToolControls::look_again);
-  other_ = form.choice(tr("With"), tr("Whose voxels are added, taken away, or kept."));
+  other_ = form.choice(tr("With"), tr("Whose voxels are added, taken away, kept, or seeds."));
   connect(other_, &QComboBox::activated, this, &LabelToolControls::look_again);
   work_ = new WorkLine;
   form.wide(work_);
@@ -196,10 +205,11 @@ void LabelToolControls::choose_tool() {
 void LabelToolControls::fill_others() {
   const QVariant was = other_->currentData();
   other_->clear();
-  other_->addItem(tr("Surface"), document::kTheSurface);
+  const auto chosen = tool();
+  if (chosen != LabelTool::watershed) other_->addItem(tr("Surface"), document::kTheSurface);
   for (const document::Label& label : proxy()->state().labels) {
     // Labels do not overlap: there is nothing to take away from one another.
-    if (tool() != LabelTool::add || labels_ == std::vector{label.id}) continue;
+    if (!chosen || !has_other_label(*chosen) || labels_ == std::vector{label.id}) continue;
     other_->addItem(QString::fromStdString(label.name), label.id);
   }
   other_->setCurrentIndex(std::max(other_->findData(was), 0));
@@ -220,6 +230,8 @@ void LabelToolControls::look_again() {
 void LabelToolControls::look() {
   if (!finisher() || !tool()) return;
   if (labels_.empty()) return say(tr("Choose a label in the table."));
+  if (tool() == LabelTool::watershed && other_->count() == 0)
+    return say(tr("Add another label and paint the seeds with it."));
   looked_at_ = proxy()->state().label_voxels;
   work_->begin(tr("Preview"));
   finisher()->begin(use(), labels_);

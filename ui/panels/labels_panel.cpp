@@ -2,15 +2,15 @@
 
 #include <QCheckBox>
 #include <QColorDialog>
-#include <QGridLayout>
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QTableView>
 #include <QToolButton>
 
-#include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/panels/label_paint_controls.h"
 #include "ui/panels/label_tool_controls.h"
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
@@ -18,6 +18,7 @@
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
+#include "ui/widgets/wide_button.h"
 
 namespace tidemark::ui {
 namespace {
@@ -30,12 +31,15 @@ constexpr int kTableHeight = 180;
 LabelsPanel::LabelsPanel(QWidget* parent)
     : Panel(tr("Open a study to keep what you segment as labels."), parent), model_(new LabelsModel(this)) {
   add(make_table());
+  painting_ = new LabelPaintControls;
+  add(painting_);
   add(make_actions());
   tools_ = new LabelToolControls;
   add(tools_);
   connect(take_all_, &QCheckBox::toggled, this, [this](bool on) {
-    tools_->set_take(on ? document::Take::others_too : document::Take::free_voxels);
-    show_brush();
+    const document::Take take = on ? document::Take::others_too : document::Take::free_voxels;
+    tools_->set_take(take);
+    painting_->set_take(take);
   });
   connect(model_, &LabelsModel::edited, this, [this](const document::Label& label) {
     if (proxy()) proxy()->set_label(label);
@@ -81,37 +85,13 @@ QWidget* LabelsPanel::make_table() {
 
 QWidget* LabelsPanel::make_table_buttons() {
   auto* buttons = new QWidget;
-  auto* rows = new QGridLayout(buttons);
-  rows->setContentsMargins(0, 0, 0, 0);
-  rows->setSpacing(kSpaceTight);
-  rows->setColumnStretch(2, 1);
-  const auto make = [rows](const QString& text, QStringView picture, const QString& tip) {
-    auto* button = new QToolButton;
-    button->setText(text);
-    button->setIcon(icon(picture));
-    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    button->setIconSize({kIconSmall, kIconSmall});
-    button->setFocusPolicy(Qt::StrongFocus);
-    button->setToolTip(tip);
-    button->setAccessibleName(text);
-    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    rows->addWidget(button, rows->count() / 2, rows->count() % 2);
-    return button;
-  };
-  auto* add = make(tr("Add"), u"add", tr("Adds an empty label."));
-  remove_ = make(tr("Remove"), u"remove", tr("Removes the chosen label and what it holds."));
-  brush_ = make(tr("Brush"), u"tool-label",
-                tr("Paints the chosen label, or a new one. Left button: adds. Right button: takes away. With "
-                   "Shift a ball "
-                   "through slices, with Ctrl only voxels as bright as the first one, within ε."));
-  brush_->setCheckable(true);
-  connect(brush_, &QToolButton::clicked, this, [this] { paint_by(false); });
-  outline_ = make(tr("Outline"), u"label-outline",
-                  tr("Paints what the mouse goes around in a slice, or a polygon by clicks, which a double "
-                     "click ends. Left "
-                     "button: adds. Right button: takes away."));
-  outline_->setCheckable(true);
-  connect(outline_, &QToolButton::clicked, this, [this] { paint_by(true); });
+  auto* row = new QHBoxLayout(buttons);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(kSpaceTight);
+  auto* add = make_wide_button(tr("Add"), u"add", tr("Adds an empty label."));
+  remove_ = make_wide_button(tr("Remove"), u"remove", tr("Removes the chosen label and what it holds."));
+  row->addWidget(add);
+  row->addWidget(remove_);
   connect(add, &QToolButton::clicked, this, &LabelsPanel::add_label);
   connect(remove_, &QToolButton::clicked, this, [this] {
     if (proxy() && chosen()) proxy()->remove_label(chosen()->id);
@@ -265,33 +245,11 @@ void LabelsPanel::refresh() {
   show_buttons();
 }
 
-void LabelsPanel::paint_by(bool outlines) {
-  if (proxy()) {
-    engine::LabelBrush brush = proxy()->display().label_brush();
-    brush.outlines = outlines;
-    proxy()->display().set_label_brush(brush);
-    proxy()->display().choose_tool(engine::Tool::label);
-  }
-  show_brush();
-}
-
-void LabelsPanel::show_brush() {
-  const bool paints = proxy() && proxy()->display().settings().tool == engine::Tool::label;
-  const bool outlines = proxy() && proxy()->display().label_brush().outlines;
-  brush_->setChecked(paints && !outlines);
-  outline_->setChecked(paints && outlines);
-  if (!proxy()) return;
-  const document::Label* label = chosen();
-  proxy()->display().set_label_brush(
-      {label ? label->id : std::uint8_t{0},
-       take_all_->isChecked() ? document::Take::others_too : document::Take::free_voxels, outlines});
-}
-
 void LabelsPanel::show_buttons() {
   const document::Label* label = chosen();
   remove_->setEnabled(label != nullptr);
   tools_->set_labels(all_chosen());
-  show_brush();
+  painting_->set_label(label ? label->id : std::uint8_t{0});
   meaning_->show_label(label);
   const bool begun = proxy() && proxy()->state().begun;
   const bool locked = label && label->locked;

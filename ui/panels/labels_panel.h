@@ -12,6 +12,7 @@ class QToolButton;
 
 namespace tidemark::ui {
 
+class LabelPaintControls;
 class LabelToolControls;
 class LabelsModel;
 class MeaningPicker;
@@ -40,16 +41,13 @@ class LabelsPanel : public Panel {
   [[nodiscard]] QString new_name() const;
   void choose_colour(const QModelIndex& index);
   void show_buttons();
-  void paint_by(bool outlines);                         // with the brush, or around
-  void show_brush();                                    // which label it paints, and how
   [[nodiscard]] const document::Label* chosen() const;  // the first of them
   [[nodiscard]] std::vector<std::uint8_t> all_chosen() const;
 
   LabelsModel* model_;
   QTableView* table_;
   QToolButton* remove_;
-  QToolButton* brush_;
-  QToolButton* outline_;
+  LabelPaintControls* painting_;
   MeaningPicker* meaning_;
   QPushButton* accept_;
   QCheckBox* take_all_;

@@ -50,28 +50,18 @@ QString mm(double value) {
   return number_text(value, 1, tr("mm"));
 }
 
-// Those that do not meet the study's grid show nothing inside, and are left out.
-std::vector<document::MeasuredImage> images_of(const ReportSource& source,
-                                               const document::SessionContents& contents) {
-  std::vector<document::MeasuredImage> images{{source.study.toStdString(), source.volume}};
-  for (const auto& image : contents.images) {
-    if (!image->volume) continue;
-    if (const auto voxels = document::on_grid(*image, contents.geometry))
-      images.push_back({image->name, *voxels});
-  }
-  return images;
-}
-
 Result<std::vector<Reported>> measure_all(const ReportSource& source,
                                           const document::SessionContents& contents) {
   const document::LabelVoxels regions{contents.geometry, contents.labels, contents.label_voxels,
                                       contents.phi};
-  const std::vector<document::MeasuredImage> images = images_of(source, contents);
+  const auto images =
+      document::images_on(contents.geometry, {source.study.toStdString(), source.volume}, contents.images);
+  if (!images) return pass_on(images);
   std::vector<Reported> all;
   const auto add = [&](const QString& name, const QString& colour, std::uint8_t label) -> Status {
     const Region region = regions.region(label);
     if (region.empty()) return {};
-    auto measures = document::measure(region, contents.geometry, images,
+    auto measures = document::measure(region, contents.geometry, *images,
                                       label == document::kTheSurface ? contents.phi.get() : nullptr);
     if (!measures) return pass_on(measures);
     all.push_back({name, colour, std::move(*measures)});

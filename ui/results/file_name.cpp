@@ -23,16 +23,20 @@ bool tells_the_patient(const QString& text, const imaging::Patient& patient) {
 
 }  // namespace
 
-QString file_name_of(const engine::LoadedStudy& study) {
+QString file_name_of(const QString& text) {
   static const QRegularExpression kNotInNames(QStringLiteral("[^\\w .()+-]"),
                                               QRegularExpression::UseUnicodePropertiesOption);
   constexpr int kLongest = 60;
+  return text.left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
+}
+
+QString file_name_of(const engine::LoadedStudy& study) {
   QString name = study.name;
   const bool is_phantom = !study.origin.phantom.empty();
   if (!is_phantom && tells_the_patient(name, study.patient)) {
     name = QString::fromStdString(study.volume->modality + " " + study.date);
   }
-  return name.left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
+  return file_name_of(name);
 }
 
 }  // namespace tidemark::ui

@@ -9,6 +9,8 @@ struct LoadedStudy;
 
 namespace tidemark::ui {
 
+// Without what has no place in names of files, and not too long.
+QString file_name_of(const QString& text);
 // The series' name without what has no place in names of files; its modality and date where the name tells
 // who the patient is. Without an ending.
 QString file_name_of(const engine::LoadedStudy& study);

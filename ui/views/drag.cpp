@@ -57,6 +57,15 @@ class WhyDrag : public Drag {
   }
 };
 
+std::unique_ptr<Drag> label_drag(DragView view, const Pointer& pressed) {
+  const engine::LabelWay way = view.proxy.display().label_brush().way;
+  if (!view.slab || way == engine::LabelWay::brush)
+    return std::make_unique<LabelDrag>(std::move(view), pressed);
+  const auto lines =
+      way == engine::LabelWay::livewire ? OutlineDrag::Lines::along_edges : OutlineDrag::Lines::straight;
+  return std::make_unique<OutlineDrag>(std::move(view), pressed, lines);
+}
+
 }  // namespace
 
 std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed) {
@@ -100,9 +109,7 @@ std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer&
     case engine::Tool::wall:
       return std::make_unique<ConstraintDrag>(std::move(view), pressed);
     case engine::Tool::label:
-      if (view.slab && view.proxy.display().label_brush().outlines)
-        return std::make_unique<OutlineDrag>(std::move(view), pressed);
-      return std::make_unique<LabelDrag>(std::move(view), pressed);
+      return label_drag(std::move(view), pressed);
     case engine::Tool::why:
       return std::make_unique<WhyDrag>(std::move(view), pressed);
   }

@@ -1,7 +1,6 @@
 #include "ui/views/label_drag.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 
 #include "imaging/regions/margin.h"
@@ -23,15 +22,16 @@ LabelDrag::LabelDrag(DragView view, const Pointer& pressed)
       last_mm_(*pressed.patient_mm) {
   if (pressed.modifiers.testFlag(Qt::ControlModifier)) {
     const Volume& source = *proxy().source();
-    value_ = static_cast<double>(source.value(voxel_at(source.geometry, last_mm_)));
+    const auto value = static_cast<double>(source.value(voxel_at(source.geometry, last_mm_)));
+    const double tolerance = proxy().parameters().range;
+    keep_to({value - tolerance, value + tolerance});
   }
   dab(last_mm_, last_mm_);
 }
 
 void LabelDrag::dab(glm::dvec3 from_mm, glm::dvec3 to_mm) {
   const auto way = way_between(from_mm, to_mm, std::max(0.5 * radius_mm_, 0.1));
-  const Region all = is_ball_ ? balls(way) : discs(way);
-  show(united(region(), value_ ? like_the_first(all) : all));
+  show(united(region(), is_ball_ ? balls(way) : discs(way)));
 }
 
 Region LabelDrag::discs(const std::vector<glm::dvec3>& way) const {
@@ -51,19 +51,6 @@ Region LabelDrag::balls(const std::vector<glm::dvec3>& way) const {
     centres = united(centres, whole({voxel, voxel + Index3(1)}));
   }
   return imaging::grown(centres, grid, std::min(radius_mm_, imaging::kWidestMargin)).value_or(centres);
-}
-
-Region LabelDrag::like_the_first(const Region& region) const {
-  const Volume& source = *proxy().source();
-  const double tolerance = proxy().parameters().range;
-  Region like(region.bounds());
-  region.for_each_run([&](Index3 voxel, std::int64_t length) {
-    for (std::int64_t i = 0; i < length; ++i) {
-      const Index3 at = voxel + Index3(i, 0, 0);
-      if (std::abs(static_cast<double>(source.value(at)) - *value_) <= tolerance) like.add(at);
-    }
-  });
-  return like;
 }
 
 void LabelDrag::move(const Pointer& pointer) {

@@ -1,8 +1,6 @@
 // The drag of the brush that paints a label.
 #pragma once
 
-#include <optional>
-
 #include "ui/views/label_stroke.h"
 
 namespace tidemark::ui {
@@ -18,11 +16,9 @@ class LabelDrag : public LabelStroke {
   void dab(glm::dvec3 from_mm, glm::dvec3 to_mm);
   [[nodiscard]] Region discs(const std::vector<glm::dvec3>& way) const;
   [[nodiscard]] Region balls(const std::vector<glm::dvec3>& way) const;
-  [[nodiscard]] Region like_the_first(const Region& region) const;
 
   bool is_ball_;
   double radius_mm_;
-  std::optional<double> value_;  // with which voxels are compared
   glm::dvec3 last_mm_;
 };
 

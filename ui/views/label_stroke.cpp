@@ -11,7 +11,8 @@ namespace tidemark::ui {
 LabelStroke::LabelStroke(DragView view, const Pointer& pressed)
     : Drag(std::move(view)),
       what_(pressed.button == Qt::RightButton ? document::Labels::Stroke::erases
-                                              : document::Labels::Stroke::adds) {}
+                                              : document::Labels::Stroke::adds),
+      values_(display().label_brush().values) {}
 
 LabelStroke::~LabelStroke() {
   display().set_drawn_label(nullptr);
@@ -34,8 +35,20 @@ Region LabelStroke::region_of(const std::vector<std::int64_t>& voxels) const {
   return region;
 }
 
+Region LabelStroke::with_values(const Region& region) const {
+  const Volume& source = *proxy().source();
+  Region kept(region.bounds());
+  region.for_each_run([&](Index3 voxel, std::int64_t length) {
+    for (std::int64_t i = 0; i < length; ++i) {
+      const Index3 at = voxel + Index3(i, 0, 0);
+      if (values_->contains(source.value(at))) kept.add(at);
+    }
+  });
+  return kept;
+}
+
 void LabelStroke::show(Region region) {
-  region_ = std::move(region);
+  region_ = values_ ? with_values(region) : std::move(region);
   auto drawn = std::make_shared<engine::LabelPreview>();
   drawn->from.geometry = proxy().volume().geometry;
   drawn->regions.push_back({label(), {}, region_});

@@ -2,6 +2,8 @@
 // slices show the stroke.
 #pragma once
 
+#include <optional>
+
 #include "core/region.h"
 #include "ui/views/drag.h"
 
@@ -17,14 +19,19 @@ class LabelStroke : public Drag {
 
  protected:
   [[nodiscard]] const Region& region() const { return region_; }
-  void show(Region region);  // what the stroke is so far
+  // What the stroke is so far, but for voxels whose values it leaves out.
+  void show(Region region);
+  // The stroke changes voxels with these values alone, from now on.
+  void keep_to(const engine::ValueRange& values) { values_ = values; }
   // Of offsets in the volume's grid.
   [[nodiscard]] Region region_of(const std::vector<std::int64_t>& voxels) const;
 
  private:
   [[nodiscard]] std::uint8_t label() const;  // 0: a new one, because there is none
+  [[nodiscard]] Region with_values(const Region& region) const;
 
   document::Labels::Stroke what_;
+  std::optional<engine::ValueRange> values_;
   Region region_;
 };
 

@@ -83,7 +83,7 @@ PictureView::PictureView(engine::CaseProxy& proxy, QWidget* parent)
 }
 
 PictureView::~PictureView() {
-  drag_.reset();  // it speaks to all views, this one included
+  gesture_.stop();  // it speaks to all views, this one included
 }
 
 renderer::PictureSize PictureView::physical_size() const {
@@ -122,18 +122,11 @@ void PictureView::ask() {
 }
 
 void PictureView::follow_display() {
-  if (waits_for_click() && !is_where_drag_began()) set_drag(nullptr);
+  gesture_.keep_to(ground());
   setCursor(cursor_at(mouse_));
   ask();
   follow_forces();
   paint_again();
-}
-
-// A gesture of clicks goes on in its own slice alone.
-bool PictureView::is_where_drag_began() const {
-  const auto now = slab();
-  const bool same_slice = now && slab_of_drag_ ? now->is_same_as(*slab_of_drag_) : !now && !slab_of_drag_;
-  return same_slice && settings().tool == tool_of_drag_ && display().label_brush().outlines;
 }
 
 // Painting.
@@ -159,10 +152,11 @@ void PictureView::paint_all(QPainter& painter) {
   paint_overlay(painter);
   paint_balance(painter);
   if (const auto brush = ring()) paint_circle(painter, brush->centre, brush->radius, brush->erases);
-  if (!drag_) return;
-  drag_->paint(painter);
+  const Drag* drag = gesture_.drag();
+  if (!drag) return;
+  drag->paint(painter);
   paint_text(painter, QRectF(mouse_ + QPointF(16, 10), QSizeF(240, 18)), Qt::AlignLeft | Qt::AlignVCenter,
-             drag_->text());
+             drag->text());
 }
 
 void PictureView::paint_picture(QPainter& painter) {
@@ -200,9 +194,10 @@ std::optional<PictureView::Ring> PictureView::ring() const {
     if (!here || !underMouse()) return std::nullopt;
     return Ring{position_of(*pointer), settings().stroke_voxels * here->finest_mm() / mm_per_pixel(), false};
   }
-  if (settings().tool == engine::Tool::label && display().label_brush().outlines && slab())
+  if (settings().tool == engine::Tool::label && display().label_brush().way != engine::LabelWay::brush &&
+      slab())
     return std::nullopt;  // the mouse goes around what is painted
-  if (!shown && pointer && !drag_ && engine::has_right_button(settings().tool)) {
+  if (!shown && pointer && !gesture_.drag() && engine::has_right_button(settings().tool)) {
     shown = engine::DrawnSphere{{*pointer, settings().brush_mm}, settings().tool == engine::Tool::erase};
   }
   if (!shown) return std::nullopt;
@@ -256,10 +251,9 @@ void PictureView::showEvent(QShowEvent* event) {
 
 bool PictureView::event(QEvent* event) {
   // Between the clicks of a gesture keys are the gesture's, before they are those of actions.
-  if (event->type() == QEvent::ShortcutOverride && waits_for_click()) {
-    const int key = static_cast<const QKeyEvent*>(event)->key();
-    if (key == Qt::Key_Escape || key == Qt::Key_Return || key == Qt::Key_Enter) event->accept();
-  }
+  if (event->type() == QEvent::ShortcutOverride && gesture_.waits_for_click() &&
+      Gesture::is_key(static_cast<const QKeyEvent*>(event)->key()))
+    event->accept();
   // Another screen has other pixels.
   if (event->type() == QEvent::ScreenChangeInternal) ask();
   return QWidget::event(event);
@@ -268,12 +262,16 @@ bool PictureView::event(QEvent* event) {
 // The mouse.
 
 Pointer PictureView::pointer_at(const QMouseEvent& event) const {
-  return {event.position(), event.button() != Qt::NoButton ? event.button() : button_, event.modifiers(),
-          patient_at(event.position())};
+  return {event.position(), event.button() != Qt::NoButton ? event.button() : gesture_.button(),
+          event.modifiers(), patient_at(event.position())};
 }
 
-void PictureView::set_drag(std::unique_ptr<Drag> drag) {
-  drag_ = std::move(drag);
+Gesture::Ground PictureView::ground() const {
+  return {settings().tool, display().label_brush().way, slab()};
+}
+
+void PictureView::replace_drag(std::unique_ptr<Drag> drag) {
+  gesture_.replace(std::move(drag));
   paint_again();
 }
 
@@ -291,56 +289,47 @@ std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
 }
 
 void PictureView::mousePressEvent(QMouseEvent* event) {
-  if (button_ != Qt::NoButton) return;  // one gesture at a time
-  ended_by_click_ = false;
-  if (waits_for_click() && !is_where_drag_began()) set_drag(nullptr);
-  if (waits_for_click()) {
-    if (event->button() != first_button_) return;
-    button_ = first_button_;
-    drag_->press(pointer_at(*event));
+  if (gesture_.is_held()) return;  // one gesture at a time
+  gesture_.keep_to(ground());
+  if (gesture_.waits_for_click()) {
+    gesture_.press(pointer_at(*event));
     return paint_again();
   }
-  first_button_ = button_ = event->button();
   pressed_at_ = mouse_ = event->position();
   // A brush has something to do at once.
   const engine::Tool tool = settings().tool;
   const bool is_brush = engine::has_right_button(tool) && tool != engine::Tool::seed;
-  may_be_click_ = button_ == Qt::RightButton && !is_brush;
-  tool_of_drag_ = tool;
-  slab_of_drag_ = slab();
-  set_drag(begin_drag(pointer_at(*event)));
+  may_be_click_ = event->button() == Qt::RightButton && !is_brush;
+  gesture_.begin(nullptr, event->button(), ground());
+  replace_drag(begin_drag(pointer_at(*event)));
 }
 
 void PictureView::mouseMoveEvent(QMouseEvent* event) {
   mouse_ = event->position();
-  if (!drag_) setCursor(cursor_at(mouse_));
+  if (!gesture_.drag()) setCursor(cursor_at(mouse_));
   const Pointer pointer = pointer_at(*event);
   display().set_pointer(pointer.patient_mm);
   const QPointF way = mouse_ - pressed_at_;
   may_be_click_ = may_be_click_ && std::hypot(way.x(), way.y()) < kClickReach;
   if (may_be_click_) return;
-  if (drag_) {
-    drag_->move(pointer);
+  if (Drag* drag = gesture_.drag()) {
+    drag->move(pointer);
     paint_again();
-  } else if (button_ == Qt::NoButton && event->modifiers().testFlag(Qt::ShiftModifier) &&
-             pointer.patient_mm) {
+  } else if (!pressed() && event->modifiers().testFlag(Qt::ShiftModifier) && pointer.patient_mm) {
     display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm = *pointer.patient_mm; });
-  } else if (button_ == Qt::NoButton && event->modifiers() == Qt::ControlModifier &&
+  } else if (!pressed() && event->modifiers() == Qt::ControlModifier &&
              !engine::has_right_button(settings().tool)) {
     explain_at(mouse_);
-  } else if (button_ == Qt::NoButton) {
+  } else if (!pressed()) {
     proxy_.balance().passed();
   }
 }
 
 void PictureView::mouseReleaseEvent(QMouseEvent* event) {
-  if (event->button() != button_) return;
-  button_ = Qt::NoButton;
+  if (event->button() != gesture_.button()) return;
   const bool clicked = std::exchange(may_be_click_, false);
-  if (drag_ && drag_->lifted()) return paint_again();
-  ended_by_click_ = drag_ && drag_->is_of_clicks();
-  if (drag_ && !clicked) drag_->release();
-  set_drag(nullptr);
+  gesture_.lift(!clicked);
+  paint_again();
   if (clicked) ask_for_menu(event->position());
 }
 
@@ -370,7 +359,7 @@ void PictureView::find_place(QPointF position, std::function<void(std::optional<
 void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
   const engine::Tool tool = settings().tool;
   // The second click of one that ended an outline begins no other.
-  if (std::exchange(ended_by_click_, false)) return;
+  if (gesture_.take_ended_by_click()) return;
   // Dots are painted one quickly after the other.
   if (tool == engine::Tool::examples || tool == engine::Tool::wall || tool == engine::Tool::label)
     return mousePressEvent(event);
@@ -396,7 +385,8 @@ void PictureView::wheelEvent(QWheelEvent* event) {
   wheel_remainder_ -= clicks * kWheelClick;
   event->accept();
   if (clicks == 0) return;
-  if (waits_for_click() && !event->modifiers().testFlag(Qt::ControlModifier)) return;  // its slice stays
+  if (gesture_.waits_for_click() && !event->modifiers().testFlag(Qt::ControlModifier))
+    return;  // its slice stays
   if (event->modifiers().testFlag(Qt::ControlModifier)) {
     zoom(std::pow(kZoomStep, clicks), event->position());
   } else if (event->modifiers().testFlag(Qt::ShiftModifier)) {
@@ -413,14 +403,11 @@ void PictureView::wheelEvent(QWheelEvent* event) {
   }
 }
 
-// Return ends a gesture of clicks, and Escape gives it up. Other keys are its view's again after that.
-void PictureView::end_clicks(int key) {
-  if (key == Qt::Key_Return || key == Qt::Key_Enter) drag_->release();
-  if (key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_Escape) set_drag(nullptr);
-}
-
 void PictureView::keyPressEvent(QKeyEvent* event) {
-  if (waits_for_click()) return end_clicks(event->key());
+  if (gesture_.waits_for_click()) {
+    gesture_.press_key(event->key());
+    return paint_again();
+  }
   switch (event->key()) {
     case Qt::Key_Up:
       return scroll(1);

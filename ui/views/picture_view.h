@@ -9,7 +9,7 @@
 #include "engine/force_sampler.h"
 #include "engine/picture_feed.h"
 #include "ui/views/colour_scale.h"
-#include "ui/views/drag.h"
+#include "ui/views/gesture.h"
 
 namespace tidemark::ui {
 
@@ -91,13 +91,9 @@ class PictureView : public QWidget {
   [[nodiscard]] virtual Qt::CursorShape cursor_at(QPointF position) const;
   // What the left or right button starts with the tool that is chosen.
   virtual std::unique_ptr<Drag> begin_drag(const Pointer& pressed);
-  void set_drag(std::unique_ptr<Drag> drag);
-  [[nodiscard]] bool dragging() const { return drag_ != nullptr; }
-  void end_clicks(int key);
-  [[nodiscard]] bool is_where_drag_began() const;
-  // Between two clicks of a gesture.
-  [[nodiscard]] bool waits_for_click() const { return drag_ && button_ == Qt::NoButton; }
-  [[nodiscard]] bool pressed() const { return button_ != Qt::NoButton; }
+  // In place of what the button that is down has begun.
+  void replace_drag(std::unique_ptr<Drag> drag);
+  [[nodiscard]] bool pressed() const { return gesture_.is_held(); }
 
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
@@ -122,17 +118,13 @@ class PictureView : public QWidget {
   void ask_for_menu_by_key();
   void paint_all(QPainter& painter);
   void paint_picture(QPainter& painter);
+  [[nodiscard]] Gesture::Ground ground() const;
   [[nodiscard]] Pointer pointer_at(const QMouseEvent& event) const;
 
   engine::CaseProxy& proxy_;
   engine::PictureFeed feed_;
   PictureSurface* surface_ = nullptr;  // covers the whole view
-  std::unique_ptr<Drag> drag_;
-  Qt::MouseButton button_ = Qt::NoButton;        // that is held down
-  Qt::MouseButton first_button_ = Qt::NoButton;  // of the drag
-  engine::Tool tool_of_drag_{};
-  std::optional<engine::SliceSlab> slab_of_drag_;
-  bool ended_by_click_ = false;  // the last gesture, one of clicks
+  Gesture gesture_;
   QPointF mouse_;
   QPointF pressed_at_;
   bool may_be_click_ = false;  // the right button is down, and the mouse has not moved yet

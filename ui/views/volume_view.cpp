@@ -157,11 +157,11 @@ std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
 void VolumeViewWidget::pick_and_begin(const Pointer& pressed) {
   pick(pressed.position, [this, pressed, number = ++press_number_](std::optional<glm::dvec3> hit_mm) {
     if (!this->pressed() || press_number_ != number) return;
-    if (!hit_mm) return set_drag(navigation_drag(pressed));
+    if (!hit_mm) return replace_drag(navigation_drag(pressed));
     grip_mm_ = hit_mm;
     Pointer there = pressed;
     there.patient_mm = hit_mm;
-    set_drag(PictureView::begin_drag(there));
+    replace_drag(PictureView::begin_drag(there));
   });
 }
 

@@ -88,6 +88,7 @@ NumberBox::Typed NumberBox::read(const QString& typed) const {
 }
 
 QString NumberBox::problem() const {
+  if (!specialValueText().isEmpty() && lineEdit()->text() == specialValueText()) return {};
   const QString typed = typed_in(lineEdit()->text());
   const Typed now = read(typed);
   const bool ended = typed == refused_;

@@ -7,10 +7,13 @@
 #include <QMenuBar>
 #include <QSignalSpy>
 #include <QTabBar>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 
 #include "tests/support/test_program.h"
 #include "tests/ui/lessons/teacher.h"
+#include "tests/ui/main/results_desktop.h"
 #include "tests/ui/main/student.h"
 #include "ui/lessons/lesson_editor.h"
 #include "ui/look/theme.h"
@@ -22,6 +25,7 @@ class LessonWritingStoryTest : public QObject {
 
  private slots:
   void a_lesson_is_written_opened_and_done();
+  void spheres_that_were_drawn_are_the_start();
   void the_start_page_leads_to_the_lessons();
   void large_type_reaches_every_text_and_outlives_the_theme();
 
@@ -110,6 +114,40 @@ void LessonWritingStoryTest::a_lesson_is_written_opened_and_done() {
   const QByteArray written = table.readAll();
   QVERIFY2(written.contains("\"What becomes of it?\",\"It vanishes\",\"It vanishes\",yes"),
            written.constData());
+}
+
+// As a teacher begins: a sphere drawn in a slice of the phantom, another one, and a part of it erased.
+void LessonWritingStoryTest::spheres_that_were_drawn_are_the_start() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  const glm::dvec3 seed = desktop.seed_mm();
+  const auto place = [&](double x) { return seed + glm::dvec3(x, 0.0, 0.0); };
+  desktop.drag(*axial, {place(-10.0), place(-4.0)});
+  desktop.wait_until_idle();
+  desktop.drag(*axial, {place(10.0), place(15.0)});
+  desktop.wait_until_idle();
+  ui::LessonEditor* editor = editor_of(desktop);
+  QVERIFY(editor);
+  click(*editor, "&Take from the case");
+  QVERIFY(Desktop::wait_for([&] { return editor->lesson().start.has_value(); }));
+  const document::Start& start = *editor->lesson().start;
+  QCOMPARE(start.seeds.size(), std::size_t{2});
+  QVERIFY(glm::distance(start.seeds[0].centre_mm, place(-10.0)) < 1.0);
+  QVERIFY(std::abs(start.seeds[1].radius_mm - 5.0) < 1.0);
+  QVERIFY(start.erasers.empty());
+  // What is erased is an eraser, and nothing is said of another end.
+  desktop.drag(*axial, {place(-10.0), place(-8.0)}, Qt::RightButton);
+  desktop.wait_until_idle();
+  click(*editor, "&Take from the case");
+  QVERIFY(Desktop::wait_for([&] { return editor->lesson().start->erasers.size() == 1; }));
+  QVERIFY(!says(*editor, "The case was changed on its way"));
+  // After that a sphere that is added has no place in a start.
+  desktop.drag(*axial, {place(0.0), place(3.0)});
+  desktop.wait_until_idle();
+  click(*editor, "&Take from the case");
+  QVERIFY(Desktop::wait_for([&] { return says(*editor, "The case was changed on its way"); }));
+  QCOMPARE(editor->lesson().start->seeds.size(), std::size_t{2});
 }
 
 void LessonWritingStoryTest::the_start_page_leads_to_the_lessons() {

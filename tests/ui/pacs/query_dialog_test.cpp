@@ -92,6 +92,36 @@ class QueryDialogTest : public QObject {
     QVERIFY(loaded->values() == volume.values());
   }
 
+  void a_link_asks_for_its_study_and_brings_nothing() {
+    const auto archive = start_dcmqrscp();
+    const TemporaryFolder sent;
+    for (const char* name : {"a", "b"}) {
+      QCOMPARE(failure(imaging::send_files(archive->server(),
+                                           write_series(sample_volume({4, 4, 2}), sent / name))),
+               QString());
+    }
+    imaging::PacsServer other = archive->server();
+    other.name = "another";
+    other.port = 1;
+    const Asked asked({other, archive->server()});
+    QSignalSpy retrieved(asked.dialog.get(), &ui::QueryDialog::retrieved);
+    const QString name = QString::fromStdString(archive->server().name);
+    named<QLineEdit>(*asked.dialog, "Patient's name")->setText("Nobody");  // from a question before
+    const auto all = imaging::find_studies(archive->server(), {}, {}, {});
+    QVERIFY(all && all->entries.size() == 2);
+    imaging::StudyQuery query;
+    query.uid = all->entries[1].uid;
+    QCOMPARE(failure(asked.dialog->ask(name, query)), QString());
+    QVERIFY(failure(asked.dialog->ask(name, query)).contains("is being asked"));
+    QTRY_COMPARE_WITH_TIMEOUT(asked.tree().topLevelItemCount(), 1, kPatience);
+    QCOMPARE(asked.tree().topLevelItem(0)->data(0, Qt::UserRole).toString().toStdString(), query.uid);
+    QCOMPARE(named<QComboBox>(*asked.dialog, "Server")->currentText(), name);
+    QVERIFY(named<QLineEdit>(*asked.dialog, "Patient's name")->text().isEmpty());
+    QTRY_VERIFY_WITH_TIMEOUT(button(*asked.dialog, "Open")->isEnabled(), kPatience);
+    QCOMPARE(retrieved.count(), 0);
+    QVERIFY(failure(asked.dialog->ask("nowhere", query)).contains("there is no server nowhere"));
+  }
+
   void what_one_server_has_found_goes_when_another_is_chosen() {
     const auto archive = start_dcmqrscp();
     const TemporaryFolder sent;

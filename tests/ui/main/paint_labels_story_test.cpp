@@ -1,0 +1,332 @@
+// Labels painted by hand, by mouse and keys: with the brush, around, along edges, and on some values alone.
+#include <QAbstractButton>
+#include <QMenu>
+#include <QTableView>
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/test_program.h"
+#include "tests/ui/main/desktop.h"
+#include "tests/ui/main/labels_desktop.h"
+#include "ui/widgets/number_box.h"
+
+namespace tidemark::test::paint_labels_story_test {
+
+class PaintLabelsStoryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void the_brush_paints_the_chosen_label_and_no_other();
+  void an_outline_takes_what_it_goes_around();
+  void a_polygon_is_drawn_by_clicks();
+  void a_livewire_follows_the_edge_between_clicks();
+  void only_voxels_with_certain_values_are_painted();
+  void a_label_is_chosen_where_it_is_seen();
+
+ private:
+  static void undo(Desktop& desktop) {
+    desktop.press(Qt::Key_Z, Qt::ControlModifier);
+    desktop.wait_until_idle();
+  }
+  static void click_at(QWidget& view, QPoint at) {
+    QTest::mouseMove(&view, at);
+    QTest::mouseClick(&view, Qt::LeftButton, {}, at);
+  }
+};
+
+void PaintLabelsStoryTest::the_brush_paints_the_chosen_label_and_no_other() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  const glm::dvec3 seed = desktop.seed_mm();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  // By its key, without the panel: the first stroke makes a label, the next one goes on with it.
+  desktop.press(Qt::Key_Q);
+  QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::label);
+  QVERIFY(desktop.menu_entry("Tools", "Label brush")->isChecked());
+  desktop.drag(*axial, {seed, seed + glm::dvec3(10.0, 0.0, 0.0)});
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region first = region(desktop, 1);
+  const double radius = desktop.proxy().display().settings().brush_mm;
+  const VoxelRange box = first.bounds();
+  QVERIFY(static_cast<double>(box.high.x - box.low.x) > 9.0 + 2.0 * radius);  // of 1 mm
+  QVERIFY(static_cast<double>(first.count()) > 10.0 * radius);
+  QCOMPARE(first.bounds().high.z - first.bounds().low.z, std::int64_t{1});  // one slice
+  desktop.drag(*axial, {seed + glm::dvec3(0.0, 14.0, 0.0)}, Qt::LeftButton, Qt::ShiftModifier);
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region with_ball = region(desktop, 1);
+  QVERIFY(static_cast<double>(with_ball.bounds().high.z - with_ball.bounds().low.z) > 2.0 * radius - 1.0);
+  QVERIFY(difference(first, with_ball).empty());
+  QCOMPARE(desktop.state().undo_text, QString("brush on Label 1"));
+  desktop.screenshot("brush-0-label");
+
+  // Another label leaves its voxels alone, and takes away from itself only.
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  click(desktop, panel, "Add");
+  click(desktop, panel, "Brush");
+  desktop.drag(*axial, {seed, seed + glm::dvec3(0.0, 10.0, 0.0)});
+  desktop.wait_until_idle();
+  const Region second = region(desktop, 2);
+  QVERIFY(second.count() > 0);
+  QVERIFY(region(desktop, 1) == with_ball);
+  desktop.drag(*axial, {seed - glm::dvec3(8.0, 0.0, 0.0), seed + glm::dvec3(8.0, 10.0, 0.0)},
+               Qt::RightButton);
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == with_ball);
+  QVERIFY(region(desktop, 2).count() < second.count());
+  desktop.screenshot("brush-1-second");
+
+  // With Ctrl only what is as bright as the first voxel: the ball's own voxels, and none of the background.
+  const Volume& volume = desktop.proxy().volume();
+  click(desktop, panel, "Add");
+  desktop.drag(*axial, {seed - glm::dvec3(16.0, 0.0, 0.0), seed - glm::dvec3(26.0, 0.0, 0.0)}, Qt::LeftButton,
+               Qt::ControlModifier);
+  desktop.wait_until_idle();
+  const Region like = region(desktop, 3);
+  QVERIFY(like.count() > 0);
+  const float inside = volume.value(Index3(glm::round(volume.geometry.to_voxel(seed))));
+  const auto tolerance = static_cast<float>(desktop.state().parameters.range);
+  like.for_each_run([&](Index3 voxel, std::int64_t length) {
+    for (std::int64_t i = 0; i < length; ++i)
+      QVERIFY(std::abs(volume.value(voxel + Index3(i, 0, 0)) - inside) <= tolerance);
+  });
+  for (int stroke = 0; stroke < 3; ++stroke) {
+    desktop.press(Qt::Key_Z, Qt::ControlModifier);
+    desktop.wait_until_idle();
+  }
+  QVERIFY(region(desktop, 2) == second);
+}
+
+void PaintLabelsStoryTest::an_outline_takes_what_it_goes_around() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  const glm::dvec3 seed = desktop.seed_mm();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  click(desktop, panel, "Outline");
+  QVERIFY(!seen<QAbstractButton>(panel, "Brush")->isChecked());
+  // Around a square of 20 mm, whose last side closes it by itself.
+  const auto corner = [&](double x, double y) { return seed + glm::dvec3(x, y, 0.0); };
+  desktop.drag(*axial, {corner(-10.2, -10.2), corner(10.2, -10.2), corner(10.2, 10.2), corner(-10.2, 10.2)});
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region square = region(desktop, 1);
+  QCOMPARE(square.bounds().high.z - square.bounds().low.z, std::int64_t{1});
+  QVERIFY2(std::abs(static_cast<double>(square.count()) - 20.4 * 20.4) < 45.0,
+           qPrintable(QString::number(square.count())));
+  desktop.screenshot("outline-0-square");
+  // A part of it goes again.
+  desktop.drag(*axial, {corner(0.0, -14.0), corner(14.0, -14.0), corner(14.0, 14.0), corner(0.0, 14.0)},
+               Qt::RightButton);
+  desktop.wait_until_idle();
+  const Region half = region(desktop, 1);
+  QVERIFY(difference(half, square).empty());
+  QVERIFY(std::abs(static_cast<double>(half.count()) - 0.5 * static_cast<double>(square.count())) < 30.0);
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == square);
+  // The brush is itself again.
+  click(desktop, panel, "Brush");
+  QVERIFY(!seen<QAbstractButton>(panel, "Outline")->isChecked());
+  desktop.drag(*axial, {corner(-25.0, 0.0), corner(-15.0, 0.0)});
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1).count() > square.count());
+}
+
+void PaintLabelsStoryTest::a_polygon_is_drawn_by_clicks() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  const glm::dvec3 seed = desktop.seed_mm();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  QVERIFY(axial);
+  click(desktop, panel, "Outline");
+  const auto place = [&](double x, double y) {
+    return axial->position_of(seed + glm::dvec3(x, y, 0.0)).toPoint();
+  };
+  const QList<QPoint> corners{place(-10.2, -10.2), place(10.2, -10.2), place(10.2, 10.2), place(-10.2, 10.2)};
+  for (const QPoint corner : corners) click_at(*axial, corner);
+  QTest::mouseMove(axial, place(-16.0, 0.0));
+  desktop.screenshot("outline-1-polygon");
+  QVERIFY(desktop.state().labels.empty());  // until it is closed
+  // Another tool, Escape and the wheel end nothing by accident: the polygon goes, and nothing is painted.
+  QTest::keyClick(axial, Qt::Key_Escape);
+  desktop.wait_until_idle();
+  QVERIFY(desktop.state().labels.empty());
+
+  for (const QPoint corner : corners) click_at(*axial, corner);
+  QTest::mouseDClick(axial, Qt::LeftButton, {}, corners.back());  // which ends with the second press
+  QTest::mouseRelease(axial, Qt::LeftButton, {}, corners.back());
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region square = region(desktop, 1);
+  QVERIFY2(std::abs(static_cast<double>(square.count()) - 20.4 * 20.4) < 45.0,
+           qPrintable(QString::number(square.count())));
+  // The first corner closes it as well, and so does Return.
+  undo(desktop);
+  for (const QPoint corner : corners) click_at(*axial, corner);
+  click_at(*axial, corners.front());
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == square);
+  undo(desktop);
+  for (const QPoint corner : corners) click_at(*axial, corner);
+  QTest::keyClick(axial, Qt::Key_Return);
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == square);
+}
+
+void PaintLabelsStoryTest::a_label_is_chosen_where_it_is_seen() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  const glm::dvec3 left = desktop.seed_mm() - glm::dvec3(12.0, 0.0, 0.0);
+  const glm::dvec3 right = desktop.seed_mm() + glm::dvec3(12.0, 0.0, 0.0);
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  desktop.press(Qt::Key_Q);
+  desktop.drag(*axial, {left});
+  desktop.wait_until_idle();
+  click(desktop, panel, "Add");
+  desktop.drag(*axial, {right});
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{2});
+  // The menu of the place has its label. A brush has the right button for itself: the Menu key asks.
+  const auto entry_at = [&](glm::dvec3 place_mm) -> QAction* {
+    desktop.proxy().display().change(
+        [&](engine::DisplaySettings& settings) { settings.cursor_mm = place_mm; });
+    axial->setFocus();
+    QTest::keyClick(axial, Qt::Key_Menu);
+    if (!Desktop::wait_for([] { return QApplication::activePopupWidget() != nullptr; })) return nullptr;
+    for (QAction* action : QApplication::activePopupWidget()->actions()) {
+      if (action->text().contains("&label")) return action;
+    }
+    return nullptr;
+  };
+  QAction* entry = entry_at(left);
+  QVERIFY(entry && entry->isEnabled());
+  QVERIFY2(entry->text().contains("Label 1"), qPrintable(entry->text()));
+  desktop.screenshot_at_once("label-menu");
+  auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+  QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(entry).center());
+  desktop.wait_until_idle();
+  const std::int64_t second = region(desktop, 2).count();
+  desktop.drag(*axial, {left + glm::dvec3(0.0, 12.0, 0.0)});
+  desktop.wait_until_idle();
+  QCOMPARE(region(desktop, 2).count(), second);  // the stroke went into the first
+  entry = entry_at(desktop.seed_mm() + glm::dvec3(0.0, -25.0, 0.0));
+  QVERIFY(entry && !entry->isEnabled());
+  QApplication::activePopupWidget()->close();
+}
+
+// Six clicks near the edge of a ball give its outline, of which a polygon of them would miss a sixth.
+void PaintLabelsStoryTest::a_livewire_follows_the_edge_between_clicks() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  click(desktop, panel, "Livewire");
+  QVERIFY(seen<QAbstractButton>(panel, "Livewire")->isChecked());
+  QVERIFY(!seen<QAbstractButton>(panel, "Outline")->isChecked());
+  const auto& truth = desktop.proxy().study().truth;
+  QVERIFY(truth);
+  const Geometry& grid = desktop.proxy().volume().geometry;
+  const auto slice = std::llround(grid.to_voxel(desktop.proxy().display().settings().cursor_mm).z);
+  const Region disc =
+      intersection(Region(*truth), whole({{0, 0, slice}, {grid.size.x, grid.size.y, slice + 1}}));
+  const VoxelRange bounds = disc.bounds();
+  const glm::dvec3 middle =
+      0.5 * (grid.to_patient(glm::dvec3(bounds.low)) + grid.to_patient(glm::dvec3(bounds.high - Index3(1))));
+  const double radius_mm = 0.5 * grid.spacing_mm.x * static_cast<double>(bounds.high.x - bounds.low.x);
+  QList<QPoint> corners;
+  for (int n = 0; n < 6; ++n) {
+    const double angle = std::numbers::pi * n / 3.0;
+    const double radius = radius_mm + (n % 2 == 0 ? 1.0 : -1.0);
+    corners
+        << axial->position_of(middle + radius * glm::dvec3(std::cos(angle), std::sin(angle), 0.0)).toPoint();
+  }
+  for (const QPoint corner : corners) click_at(*axial, corner);
+  QTest::mouseMove(axial, (corners.back() + corners.front()) / 2);
+  desktop.screenshot("livewire-0-drawing");
+  QVERIFY(desktop.state().labels.empty());  // until it is closed
+  click_at(*axial, corners.front());
+  desktop.wait_until_idle();
+  desktop.screenshot("livewire-1-label");
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region painted = region(desktop, 1);
+  const double dice = 2.0 * static_cast<double>(tidemark::intersection(painted, disc).count()) /
+                      static_cast<double>(painted.count() + disc.count());
+  QVERIFY2(dice > 0.96, qPrintable(QString::number(dice)));
+  // Straight lines between the same clicks.
+  undo(desktop);
+  click(desktop, panel, "Outline");
+  for (const QPoint corner : corners) click_at(*axial, corner);
+  click_at(*axial, corners.front());
+  desktop.wait_until_idle();
+  QVERIFY(static_cast<double>(region(desktop, 1).count()) < 0.9 * static_cast<double>(disc.count()));
+}
+
+void PaintLabelsStoryTest::only_voxels_with_certain_values_are_painted() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  const glm::dvec3 seed = desktop.seed_mm();
+  const auto square = [&] {
+    const auto corner = [&](double x, double y) { return seed + glm::dvec3(x, y, 0.0); };
+    desktop.drag(*axial,
+                 {corner(-50.0, -50.0), corner(50.0, -50.0), corner(50.0, 50.0), corner(-50.0, 50.0)});
+    desktop.wait_until_idle();
+  };
+  const auto values_are_within = [&](double low, double high) {
+    const Volume& source = *desktop.proxy().source();
+    bool within = true;
+    region(desktop, 1).for_each_run([&](Index3 voxel, std::int64_t length) {
+      for (std::int64_t i = 0; i < length; ++i) {
+        const double value = source.value(voxel + Index3(i, 0, 0));
+        within = within && value >= low && value <= high;
+      }
+    });
+    return within;
+  };
+  click(desktop, panel, "Outline");
+  QVERIFY(!find_seen<ui::NumberBox>(panel, "From"));
+  click(desktop, panel, "Only values");
+  const solver::Parameters& parameters = desktop.proxy().parameters();
+  const double low = parameters.target - parameters.range;
+  const double high = parameters.target + parameters.range;
+  QCOMPARE(seen<ui::NumberBox>(panel, "From")->value(), low);
+  QCOMPARE(seen<ui::NumberBox>(panel, "Up to")->value(), high);
+  square();
+  desktop.screenshot("values-0-within");
+  const std::int64_t most = region(desktop, 1).count();
+  QVERIFY(most > 500);
+  QVERIFY(values_are_within(low, high));
+  // A narrower range, typed; the other end gives way to one beyond it.
+  undo(desktop);
+  const auto type = [&](const QString& box, double value) {
+    auto* number = seen<ui::NumberBox>(panel, box);
+    QTest::mouseClick(number, Qt::LeftButton);
+    number->selectAll();
+    QTest::keyClicks(number, QString::number(value));
+    QTest::keyClick(number, Qt::Key_Tab);
+    desktop.wait_until_idle();
+  };
+  type("From", parameters.target);
+  square();
+  QVERIFY(region(desktop, 1).count() < most);
+  QVERIFY(values_are_within(parameters.target, high));
+  type("Up to", low);
+  QCOMPARE(seen<ui::NumberBox>(panel, "From")->value(), low);
+  // All values again.
+  undo(desktop);
+  click(desktop, panel, "Only values");
+  QVERIFY(!find_seen<ui::NumberBox>(panel, "From"));
+  square();
+  QVERIFY(region(desktop, 1).count() > most);
+}
+
+TIDEMARK_TEST(PaintLabelsStoryTest)
+
+}  // namespace tidemark::test::paint_labels_story_test
+
+#include "paint_labels_story_test.moc"

@@ -1,0 +1,47 @@
+#include "ui/views/gesture.h"
+
+#include <utility>
+
+namespace tidemark::ui {
+
+bool Gesture::Ground::is_same_as(const Ground& other) const {
+  const bool same_slice = slab && other.slab ? slab->is_same_as(*other.slab) : !slab && !other.slab;
+  return same_slice && tool == other.tool && way == other.way;
+}
+
+void Gesture::begin(std::unique_ptr<Drag> drag, Qt::MouseButton button, Ground ground) {
+  drag_ = std::move(drag);
+  first_button_ = button_ = button;
+  ground_ = std::move(ground);
+  ended_by_click_ = false;
+}
+
+void Gesture::keep_to(const Ground& ground) {
+  if (waits_for_click() && !ground_.is_same_as(ground)) stop();
+}
+
+void Gesture::press(const Pointer& pointer) {
+  if (pointer.button != first_button_) return;
+  button_ = first_button_;
+  drag_->press(pointer);
+}
+
+void Gesture::lift(bool counts) {
+  button_ = Qt::NoButton;
+  if (!drag_ || drag_->lifted()) return;
+  ended_by_click_ = drag_->is_of_clicks();
+  if (counts) drag_->release();
+  stop();
+}
+
+bool Gesture::is_key(int key) {
+  return key == Qt::Key_Escape || key == Qt::Key_Return || key == Qt::Key_Enter;
+}
+
+void Gesture::press_key(int key) {
+  if (!is_key(key)) return;
+  if (key != Qt::Key_Escape) drag_->release();
+  stop();
+}
+
+}  // namespace tidemark::ui
