@@ -1,9 +1,12 @@
 // tidemark-cli pacs get and send.
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <system_error>
 
+#include "app/cli/deidentify_options.h"
 #include "app/cli/pacs_commands.h"
+#include "imaging/archive/private_folder.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/pacs/services.h"
 
@@ -28,10 +31,12 @@ constexpr const char* kSendSummary = "Sends DICOM files to a server";
 constexpr const char* kSendDescription =
     "Sends DICOM files, and those in folders, as they are: a server that does not take a file's compression "
     "does\n"
-    "not get that file. Where some files could not be sent, the command names them and ends with code 3.";
+    "not get that file. Where some files could not be sent, the command names them and ends with code 3.\n"
+    "With --deidentify anonymous copies are sent, as the command deidentify makes them without an option.";
 constexpr const char* kSendExamples =
     "  tidemark-cli pacs send main series/\n"
-    "  tidemark-cli pacs send main mask.dcm --json\n";
+    "  tidemark-cli pacs send main mask.dcm --json\n"
+    "  tidemark-cli pacs send research series/ --deidentify\n";
 
 struct GetOptions {
   ServerChoice choice;
@@ -41,6 +46,7 @@ struct GetOptions {
 struct SendOptions {
   ServerChoice choice;
   std::vector<std::string> paths;
+  bool deidentify = false;
 };
 
 Status run_get(Program& program, const GetOptions& options) {
@@ -93,13 +99,33 @@ Result<std::vector<fs::path>> files_of(const std::vector<std::string>& paths) {
   return files;
 }
 
-Status run_send(Program& program, const SendOptions& options) {
-  const auto chosen = options.choice.choose();
-  if (!chosen) return pass_on(chosen);
-  const auto files = files_of(options.paths);
-  if (!files) return pass_on(files);
-  Console& console = program.console;
-  const auto sent = imaging::send_files(chosen->server, *files, console.progress());
+// De-identified copies for as long as they are sent, and what they are made of.
+struct AnonymousCopies {
+  imaging::PrivateFolder folder;
+  imaging::Deidentified made;
+  std::vector<fs::path> files;
+  std::map<fs::path, fs::path> sources;  // by copy
+};
+
+Result<AnonymousCopies> make_copies(const std::vector<fs::path>& files, Console& console) {
+  auto folder = imaging::PrivateFolder::create();
+  if (!folder) return pass_on(folder);
+  const fs::path place = folder->path() / "anonymous";
+  auto made = imaging::deidentify(files, place, {}, console.progress());
+  if (!made) return pass_on(made);
+  TIDEMARK_TRY(made->folder.commit());
+  AnonymousCopies copies{std::move(*folder), std::move(*made), {}, {}};
+  for (const imaging::DeidentifiedFile& file : copies.made.files) {
+    copies.files.push_back(place / file.name);
+    copies.sources[copies.files.back()] = file.source;
+  }
+  return copies;
+}
+
+// `copies`: what the files are, if they are such.
+Status send_all(const ServerChoice::Chosen& chosen, const std::vector<fs::path>& files,
+                const AnonymousCopies* copies, Console& console) {
+  const auto sent = imaging::send_files(chosen.server, files, console.progress());
   if (!sent) return pass_on(sent);
   console.say("Sent       {} objects, {:.1f} MB", sent->objects, static_cast<double>(sent->bytes) / 1e6);
   Json object;
@@ -107,12 +133,30 @@ Status run_send(Program& program, const SendOptions& options) {
   object["bytes"] = sent->bytes;
   object["unsent"] = Json::array();
   for (const imaging::Unsent& one : sent->unsent) {
-    console.warn(fmt::format("{}: was not sent: {}", one.file.string(), one.reason));
-    object["unsent"].push_back({{"file", one.file.string()}, {"reason", one.reason}});
+    const fs::path& file = copies != nullptr ? copies->sources.at(one.file) : one.file;
+    console.warn(fmt::format("{}: was not sent: {}", file.string(), one.reason));
+    object["unsent"].push_back({{"file", file.string()}, {"reason", one.reason}});
+  }
+  if (copies != nullptr) {
+    say(console, copies->made, {});
+    object["deidentified"] = to_json(copies->made, {});
   }
   console.result(object);
-  if (sent->unsent.empty()) return {};
-  return fail(ErrorKind::input, "{} of {} files were not sent", sent->unsent.size(), files->size());
+  if (!sent->unsent.empty()) {
+    return fail(ErrorKind::input, "{} of {} files were not sent", sent->unsent.size(), files.size());
+  }
+  return copies != nullptr ? require_complete(copies->made) : Status();
+}
+
+Status run_send(Program& program, const SendOptions& options) {
+  const auto chosen = options.choice.choose();
+  if (!chosen) return pass_on(chosen);
+  const auto files = files_of(options.paths);
+  if (!files) return pass_on(files);
+  if (!options.deidentify) return send_all(*chosen, *files, nullptr, program.console);
+  const auto copies = make_copies(*files, program.console);
+  if (!copies) return pass_on(copies);
+  return send_all(*chosen, copies->files, &*copies, program.console);
 }
 
 }  // namespace
@@ -140,6 +184,8 @@ void add_pacs_send(CLI::App& pacs, Program& program) {
                                   [&program, options] { return run_send(program, *options); });
   add_server_choice(command, options->choice);
   command.add_option("PATH", options->paths, "DICOM files, or folders of them")->required()->type_name("...");
+  command.add_flag("--deidentify", options->deidentify,
+                   "Sends anonymous copies, by the profile of the command deidentify");
 }
 
 }  // namespace tidemark::cli

@@ -64,6 +64,7 @@ void add_all(CLI::App& app, Program& program) {
   add_replay(app, program);
   add_distance(app, program);
   add_convert(app, program);
+  add_deidentify(app, program);
   add_compare(app, program);
   add_measure(app, program);
   add_render(app, program);

@@ -38,6 +38,7 @@ void add_sweep(CLI::App& app, Program& program);
 void add_replay(CLI::App& app, Program& program);
 void add_distance(CLI::App& app, Program& program);
 void add_convert(CLI::App& app, Program& program);
+void add_deidentify(CLI::App& app, Program& program);
 void add_compare(CLI::App& app, Program& program);
 void add_measure(CLI::App& app, Program& program);
 void add_render(CLI::App& app, Program& program);

@@ -24,7 +24,7 @@ TABLES = {"document/lesson_figure.cpp": r'^\s+\{"\w+", "[^"]*", "([^"]+)"',
 SENTENCES = ("core", "document", "engine", "imaging")
 FOLDERS = ("app/desktop", "ui", "gpu", "renderer", "solver") + SENTENCES
 NO_SENTENCES = ("document/cohort/", "document/measure_codes.cpp", "imaging/guard/dicom/transfer_syntaxes.cpp",
-                "imaging/guard/nrrd_layout.cpp",
+                "imaging/deidentify/method_codes.cpp", "imaging/guard/nrrd_layout.cpp",
                 "imaging/results/segment_meaning.cpp", "imaging/surface/write_mesh.cpp")
 
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"([^(]*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)+\'|\w+|.', re.S)

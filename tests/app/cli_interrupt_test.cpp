@@ -131,6 +131,7 @@ void CliInterruptTest::every_command_ends_within_a_second_data() {
   const auto row = [](const char* words) { QTest::newRow(words) << QString(words).split(' '); };
   row("phantom cortex --out OUT/phantom");
   row("info SERIES");
+  row("deidentify SERIES --out OUT/anonymous");
   row("convert SERIES --out OUT/volume.nii.gz");
   row("distance MASK --out OUT/distance.nii.gz");
   row("bench");

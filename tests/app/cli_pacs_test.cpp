@@ -65,6 +65,27 @@ class CliPacsTest : public QObject {
     QVERIFY2(segment.code == 0, segment.told());
   }
 
+  void anonymous_copies_are_sent_and_not_kept() {
+    const auto archive = start_dcmqrscp();
+    const TemporaryFolder folder;
+    const QStringList use{"--servers", servers(folder, archive->server()), "--json"};
+    QCOMPARE(run_cli({"phantom", "sphere", "--out", text(folder / "sphere")}).code, 0);
+    std::filesystem::create_directory(folder / "temporary");
+    RunOptions options;
+    options.environment.insert("TMPDIR", text(folder / "temporary"));
+    const Outcome send = run_cli(
+        QStringList{"pacs", "send", "dcmqrscp", text(folder / "sphere/series"), "--deidentify"} + use, options);
+    QVERIFY2(send.code == 0, send.told());
+    const QJsonObject told = json_of(send.out);
+    QVERIFY(told["objects"].toInt() > 10);
+    QCOMPARE(told["deidentified"].toObject()["files"].toInt(), told["objects"].toInt());
+    QCOMPARE(names_in(folder / "temporary"), QStringList());
+    const Outcome find = run_cli(QStringList{"pacs", "find", "dcmqrscp"} + use);
+    QVERIFY2(find.code == 0, find.told());
+    QCOMPARE(json_of(find.out)["studies"].toArray().size(), 1);
+    QVERIFY2(!find.out.contains("Phantom") && !find.out.contains("PHANTOM"), find.told());
+  }
+
   void words_for_people_name_the_patient_on_standard_output_alone() {
     const auto archive = start_dcmqrscp();
     const TemporaryFolder folder;

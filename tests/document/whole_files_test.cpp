@@ -9,10 +9,12 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <random>
 
 #include "core/atomic_file.h"
 #include "document/session_file.h"
+#include "imaging/deidentify/deidentify.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/files/gif_file.h"
 #include "imaging/files/png_file.h"
@@ -46,6 +48,8 @@ struct Contents {
   document::SessionContents session;
   imaging::PacsConfiguration servers;
   imaging::Phantom phantom;
+  std::shared_ptr<TemporaryFolder> folder = std::make_shared<TemporaryFolder>();  // of the images
+  std::vector<fs::path> images;
 };
 
 // Noise, which no format makes short.
@@ -83,6 +87,8 @@ Contents make_contents(unsigned version) {
   made.phantom.volume.modality = "MR";
   made.phantom.truth = made.mask;
   made.phantom.random_seed = version;
+  if (!imaging::write_dicom_series(made.volume, {}, *made.folder / "images")) qFatal("there are no images");
+  made.images = imaging::files_to_deidentify(*made.folder / "images").value();
   return made;
 }
 
@@ -91,6 +97,12 @@ Status write_film(const Contents& of, const fs::path& to) {
   if (!film) return pass_on(film);
   for (int picture = 0; picture < 3; ++picture) TIDEMARK_TRY(film->add(of.pixels));
   return film->finish();
+}
+
+Status write_anonymous(const Contents& of, const fs::path& to) {
+  auto made = imaging::deidentify(of.images, to, {});
+  if (!made) return pass_on(made);
+  return made->folder.commit();
 }
 
 struct Writer {
@@ -133,6 +145,7 @@ const std::vector<Writer>& writers() {
        [](const auto& of, const auto& to) { return imaging::write_pacs_configuration(of.servers, to); }},
       {"series",
        [](const auto& of, const auto& to) { return imaging::write_dicom_series(of.volume, {}, to); }},
+      {"anonymous", write_anonymous},
       {"phantom", [](const auto& of, const auto& to) { return imaging::write_phantom(of.phantom, to); }},
   };
   return all;
