@@ -30,7 +30,7 @@ tidemark_long_test_packages=(clang-format clang-tidy python3-skimage)
 # makes archives, packages and images, and systems in folders to try them in.
 tidemark_package_packages=(
   qt6-translations-l10n qt6-wayland libgl1-mesa-dri libegl-mesa0 libglx-mesa0 fonts-dejavu-core fonts-droid-fallback patchelf makeself xz-utils
-  debhelper fakeroot lintian desktop-file-utils appstream mmdebstrap imagemagick rpm umoci skopeo python3
+  git debhelper fakeroot lintian desktop-file-utils appstream mmdebstrap imagemagick rpm umoci skopeo python3
 )
 
 # The packages of the list that are not installed, one a line.

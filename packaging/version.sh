@@ -3,9 +3,11 @@
 # The project's version, from where CMake has it.
 tidemark_version=$(sed -nE 's/^project\(tidemark VERSION ([0-9.]+).*/\1/p' "$tidemark_root/CMakeLists.txt")
 
-# The same sources give the same bits: every date in a package is that of the last commit.
+# The same sources give the same bits: every date in a package is that of the last commit. Without git, or in an unpacked
+# archive, it is that of the changelog.
 if [[ -z ${SOURCE_DATE_EPOCH:-} ]]; then
-  SOURCE_DATE_EPOCH=$(git -C "$tidemark_root" log -1 --format=%ct)
+  SOURCE_DATE_EPOCH=$(git -C "$tidemark_root" log -1 --format=%ct 2>/dev/null ||
+    stat -c %Y "$tidemark_root/CHANGELOG.md")
 fi
 export SOURCE_DATE_EPOCH
 
