@@ -43,7 +43,7 @@ ln -s "$root/bin/tidemark-cli" "$work/tidemark-cli"
 
 export XDG_DATA_HOME=$work/data
 "$root/bin/tidemark" --install-menu >/dev/null
-grep -qxF "Exec=\"$work/a \\\\\"folder\\\\\" of 100 %%/bin/tidemark\" %F" "$XDG_DATA_HOME/applications/tidemark.desktop" ||
+grep -qxF "Exec=\"$work/a \\\\\"folder\\\\\" of 100 %%/bin/tidemark\" %U" "$XDG_DATA_HOME/applications/tidemark.desktop" ||
   fail "the menu starts $(grep ^Exec "$XDG_DATA_HOME/applications/tidemark.desktop")"
 [[ -e $XDG_DATA_HOME/icons/hicolor/16x16/apps/tidemark.png ]] || fail "no icon"
 "$root/bin/tidemark" --uninstall >/dev/null
