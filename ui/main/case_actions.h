@@ -1,4 +1,4 @@
-// What the actions do that are about a case.
+// The actions that are about a case, and what they do.
 #pragma once
 
 namespace tidemark::ui {

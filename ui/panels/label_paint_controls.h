@@ -1,4 +1,4 @@
-// How labels are painted by hand: by which tool, and on which voxels.
+// The controls that paint labels by hand: by which tool, and on which voxels.
 #pragma once
 
 #include "engine/display.h"
