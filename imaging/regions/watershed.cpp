@@ -19,21 +19,16 @@ constexpr std::int64_t kVoxelsBetweenLooks = 1 << 16;  // at the progress
 // The voxels of a box, i fastest.
 class Box {
  public:
-  explicit Box(const VoxelRange& range) : range_(range), size_(range.high - range.low) {}
+  explicit Box(const VoxelRange& range) : low_(range.low) { grid_.size = range.high - range.low; }
 
-  [[nodiscard]] const Index3& size() const { return size_; }
-  [[nodiscard]] std::int64_t voxels() const { return size_.x * size_.y * size_.z; }
-  [[nodiscard]] std::int64_t offset(Index3 voxel) const {
-    const Index3 at = voxel - range_.low;
-    return (at.z * size_.y + at.y) * size_.x + at.x;
-  }
-  [[nodiscard]] Index3 voxel(std::int64_t offset) const {
-    return range_.low + Index3(offset % size_.x, offset / size_.x % size_.y, offset / size_.x / size_.y);
-  }
+  [[nodiscard]] const Index3& size() const { return grid_.size; }
+  [[nodiscard]] std::int64_t voxels() const { return grid_.voxel_count(); }
+  [[nodiscard]] std::int64_t offset(Index3 voxel) const { return grid_.offset(voxel - low_); }
+  [[nodiscard]] Index3 voxel(std::int64_t offset) const { return low_ + grid_.voxel_at(offset); }
 
  private:
-  VoxelRange range_;
-  Index3 size_;
+  Index3 low_;
+  Geometry grid_;
 };
 
 // mm, above 0 inside of the region. Beyond the box nothing is known, and nothing ends there.
