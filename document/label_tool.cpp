@@ -110,11 +110,6 @@ Result<std::vector<Region>> parts_of(const LabelToolUse& use, const Label& label
   return one;
 }
 
-bool has_other(LabelTool tool) {
-  return tool == LabelTool::add || tool == LabelTool::subtract || tool == LabelTool::intersect ||
-         tool == LabelTool::watershed;
-}
-
 Status check_other(const LabelToolUse& use, const std::vector<std::uint8_t>& labels,
                    const LabelVoxels& from) {
   if (!has_other(use.tool)) return {};
@@ -134,6 +129,11 @@ Status check_other(const LabelToolUse& use, const std::vector<std::uint8_t>& lab
 }
 
 }  // namespace
+
+bool has_other(LabelTool tool) {
+  return tool == LabelTool::add || tool == LabelTool::subtract || tool == LabelTool::intersect ||
+         tool == LabelTool::watershed;
+}
 
 Region LabelVoxels::region(std::uint8_t label) const {
   if (label == kTheSurface) return phi == nullptr ? Region() : solver::inside_region(*phi);

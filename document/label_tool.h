@@ -32,6 +32,9 @@ enum class LabelTool {
 
 inline constexpr std::uint8_t kTheSurface = 0;  // in place of a label
 
+// Whether a tool works with another label, or the surface.
+[[nodiscard]] bool has_other(LabelTool tool);
+
 // A tool with its numbers. Those that it has no use for are ignored.
 struct LabelToolUse {
   LabelTool tool = LabelTool::largest_island;

@@ -9,6 +9,7 @@
 #include "app/cli/outputs.h"
 #include "app/cli/program.h"
 #include "core/csv.h"
+#include "core/files_below.h"
 
 namespace tidemark::cli {
 namespace {
@@ -141,7 +142,7 @@ Status run(Program& program, Arguments arguments) {
   TIDEMARK_TRY(check_places(arguments));
   TIDEMARK_TRY(announce(arguments, outputs));
   arguments.options.list_changes = !arguments.list.empty();
-  const auto files = imaging::files_to_deidentify(arguments.input, console.progress());
+  const auto files = files_below(arguments.input, console.progress());
   if (!files) return pass_on(files);
   auto result = imaging::deidentify(*files, arguments.out, arguments.options, console.progress());
   if (!result) return pass_on(result);

@@ -1,11 +1,11 @@
 // tidemark-cli pacs get and send.
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <system_error>
 
 #include "app/cli/deidentify_options.h"
 #include "app/cli/pacs_commands.h"
+#include "core/files_below.h"
 #include "imaging/archive/private_folder.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/pacs/services.h"
@@ -77,24 +77,14 @@ Status run_get(Program& program, const GetOptions& options) {
 Result<std::vector<fs::path>> files_of(const std::vector<std::string>& paths) {
   std::vector<fs::path> files;
   for (const fs::path path : paths) {
+    auto inside = files_below(path);
+    if (!inside) return pass_on(inside);
     std::error_code error;
-    if (!fs::is_directory(path, error)) {
-      if (!fs::exists(path, error))
-        return fail(ErrorKind::input, "{}: no such file or folder", path.string());
-      files.push_back(path);
-      continue;
+    if (fs::is_directory(path, error)) {
+      std::erase_if(*inside, [](const fs::path& file) { return !imaging::looks_like_dicom(file); });
     }
-    std::vector<fs::path> inside;
-    fs::recursive_directory_iterator entries(path, error);
-    for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
-      std::error_code ignored;
-      if (entries->is_regular_file(ignored) && imaging::looks_like_dicom(entries->path()))
-        inside.push_back(entries->path());
-    }
-    if (error) return fail(ErrorKind::input, "{}: cannot be listed: {}", path.string(), error.message());
-    if (inside.empty()) return fail(ErrorKind::input, "{}: holds no DICOM file", path.string());
-    std::sort(inside.begin(), inside.end());
-    files.insert(files.end(), inside.begin(), inside.end());
+    if (inside->empty()) return fail(ErrorKind::input, "{}: holds no DICOM file", path.string());
+    files.insert(files.end(), inside->begin(), inside->end());
   }
   return files;
 }

@@ -167,24 +167,6 @@ Result<Deidentified> deidentify_all(const std::vector<fs::path>& files, const fs
 
 }  // namespace
 
-Result<std::vector<fs::path>> files_to_deidentify(const fs::path& path, const Progress& progress) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return fail(ErrorKind::input, "{}: no such file or folder", path.string());
-  if (!fs::is_directory(path, error)) return std::vector<fs::path>{path};
-  std::vector<fs::path> files;
-  fs::recursive_directory_iterator entries(path, error);
-  for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
-    if (progress.cancelled()) return cancelled_error();
-    const bool is_unfinished = !AtomicFile::target_of(entries->path()).empty();
-    if (is_unfinished) entries.disable_recursion_pending();
-    std::error_code ignored;
-    if (!is_unfinished && entries->is_regular_file(ignored)) files.push_back(entries->path());
-  }
-  if (error) return fail(ErrorKind::input, "{}: cannot be listed: {}", path.string(), error.message());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 Result<Deidentified> deidentify(const std::vector<fs::path>& files, const fs::path& folder,
                                 const DeidentifyOptions& options, const Progress& progress) {
   return guarded_writing(folder, [&] { return deidentify_all(files, folder, options, progress); });

@@ -45,11 +45,6 @@ struct Deidentified {
   std::map<std::string, Pseudonym> patients;
 };
 
-// The regular files below a folder, sorted; links to folders are not followed. Of a file: itself. Fails
-// (ErrorKind::input) naming the path.
-[[nodiscard]] Result<std::vector<std::filesystem::path>> files_to_deidentify(
-    const std::filesystem::path& path, const Progress& progress = {});
-
 // Writes the files, each in the encoding that it has (a deflated one inflated), into a new folder that takes
 // the place of `folder` when the result's is committed, in folders by series and under names that tell
 // nothing. Pixels are not changed. The same UID and the same patient become the same new ones in all files.

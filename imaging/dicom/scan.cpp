@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/atomic_file.h"
+#include "core/files_below.h"
 #include "core/thread_pool.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/dicom_setup.h"
@@ -22,25 +22,6 @@ namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
-
-// All regular files below the folder, sorted, so that results do not depend on the file system. Links to
-// folders are not followed: they could lead in circles. Unfinished files of a killed program are no
-// study.
-Result<std::vector<fs::path>> list_files(const fs::path& folder, bool recursive, const Progress& progress) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  fs::recursive_directory_iterator entries(folder, fs::directory_options::skip_permission_denied, error);
-  for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
-    if (progress.cancelled()) return cancelled_error();
-    const bool is_unfinished = !AtomicFile::target_of(entries->path()).empty();
-    if (!recursive || is_unfinished) entries.disable_recursion_pending();
-    std::error_code ignored;
-    if (!is_unfinished && entries->is_regular_file(ignored)) files.push_back(entries->path());
-  }
-  if (error) return fail(ErrorKind::input, "{}: cannot be listed: {}", folder.string(), error.message());
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 // The files of one folder that look like DICOM, but nothing says to which series they belong.
 struct Damage {
@@ -139,7 +120,7 @@ void warn_of_missing(Catalogue& catalogue, const fs::path& file, const MediaDire
 // Reads all files, also those that no directory of a medium names. Files that a directory names and that are
 // missing become a warning of their series.
 Result<Catalogue> scan_folder(const fs::path& folder, const Progress& progress) {
-  auto files = list_files(folder, true, progress);
+  auto files = files_below(folder, progress, {true, true});
   if (!files) return pass_on(files);
   const auto directories = std::stable_partition(
       files->begin(), files->end(), [](const fs::path& file) { return !is_media_directory(file); });
@@ -184,7 +165,7 @@ Result<Catalogue> scan_file(const fs::path& file, const Progress& progress) {
   SliceHeader placed = chosen->front();
   placed.file = folder / file.filename();  // as the listing names it
   const std::string key = series_key(placed);
-  auto files = list_files(folder, false, progress);
+  auto files = files_below(folder, progress, {false, true});
   if (!files) return pass_on(files);
   auto headers = read_headers(std::move(*files), progress);
   if (!headers) return pass_on(headers);

@@ -8,19 +8,13 @@
 #include "imaging/load_study.h"
 #include "imaging/results/results.h"
 #include "tests/app/cli_runner.h"
+#include "tests/support/grid.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test::cli_compare_test {
 
 namespace {
-
-Geometry grid_of(Index3 size, glm::dvec3 spacing_mm) {
-  Geometry grid;
-  grid.size = size;
-  grid.spacing_mm = spacing_mm;
-  return grid;
-}
 
 Mask ellipsoid(const Geometry& grid, glm::dvec3 centre_mm, glm::dvec3 radii_mm) {
   Mask mask{grid, {}};

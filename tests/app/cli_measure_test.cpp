@@ -8,6 +8,7 @@
 #include "core/atomic_file.h"
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
+#include "tests/support/grid.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -20,13 +21,6 @@ struct Box {
   Index3 high{0};  // without it
   std::int16_t label = 1;
 };
-
-Geometry grid_of(Index3 size) {
-  Geometry grid;
-  grid.size = size;
-  grid.spacing_mm = {1.0, 1.0, 3.0};
-  return grid;
-}
 
 Volume map_of(const Geometry& grid, const std::vector<Box>& boxes) {
   Volume map;
@@ -153,7 +147,8 @@ class CliMeasureTest : public QObject {
   void what_does_not_fit_ends_with_one_line() {
     const QString study = write("study", ramp(grid_));
     const QString mask = write("mask", map_of(grid_, {{{1, 1, 1}, {4, 4, 4}}}));
-    const QString larger = write("larger", map_of(grid_of({31, 20, 20}), {{{1, 1, 1}, {4, 4, 4}}}));
+    const QString larger =
+        write("larger", map_of(grid_of({31, 20, 20}, {1.0, 1.0, 3.0}), {{{1, 1, 1}, {4, 4, 4}}}));
     QVERIFY(run_cli({"measure", study}).failed_in_one_line(2));
     QVERIFY(run_cli({"measure", study, larger}).failed_in_one_line(3));
     QVERIFY(run_cli({"measure", study, mask, "--csv", text(folder_ / "t.txt")}).failed_in_one_line(2));
@@ -177,7 +172,7 @@ class CliMeasureTest : public QObject {
     return text(file);
   }
 
-  Geometry grid_ = grid_of({30, 20, 20});
+  Geometry grid_ = grid_of({30, 20, 20}, {1.0, 1.0, 3.0});
   TemporaryFolder folder_;
 };
 

@@ -3,20 +3,13 @@
 
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
+#include "tests/support/grid.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test::speed_map_test {
 
 namespace {
-
-Geometry grid_of(Index3 size, double spacing_mm, glm::dvec3 origin_mm) {
-  Geometry grid;
-  grid.size = size;
-  grid.spacing_mm = glm::dvec3(spacing_mm);
-  grid.origin_mm = origin_mm;
-  return grid;
-}
 
 // All voxels of the grid are inside.
 void write_block(const Geometry& grid, const std::filesystem::path& file) {
@@ -31,13 +24,14 @@ void write_block(const Geometry& grid, const std::filesystem::path& file) {
 class SpeedMapTest : public QObject {
   Q_OBJECT
 
-  Geometry study_ = grid_of({20, 18, 16}, 1.0, {-5.0, 3.0, 8.0});
+  Geometry study_ = grid_of({20, 18, 16}, glm::dvec3(1.0), {-5.0, 3.0, 8.0});
   TemporaryFolder folder_;
 
  private slots:
   void frames_of_a_part_of_the_study_lie_where_they_belong() {
     // Voxels of the study, from (4, 5, 6) on.
-    write_block(grid_of({6, 5, 4}, 1.0, study_.to_patient({4.0, 5.0, 6.0})), folder_ / "part.dcm");
+    write_block(grid_of({6, 5, 4}, glm::dvec3(1.0), study_.to_patient({4.0, 5.0, 6.0})),
+                folder_ / "part.dcm");
     const auto map = document::load_speed_map(folder_ / "part.dcm", study_);
     QCOMPARE(failure(map), QString());
     QCOMPARE((*map)->name, std::string("part.dcm"));
@@ -53,7 +47,8 @@ class SpeedMapTest : public QObject {
   }
 
   void frames_on_coarser_voxels_are_resampled() {
-    write_block(grid_of({4, 4, 4}, 2.0, study_.to_patient({5.5, 5.5, 5.5})), folder_ / "coarse.dcm");
+    write_block(grid_of({4, 4, 4}, glm::dvec3(2.0), study_.to_patient({5.5, 5.5, 5.5})),
+                folder_ / "coarse.dcm");
     const auto map = document::load_speed_map(folder_ / "coarse.dcm", study_);
     QCOMPARE(failure(map), QString());
     const Volume& volume = *(*map)->volume;
@@ -63,13 +58,13 @@ class SpeedMapTest : public QObject {
   }
 
   void what_lies_elsewhere_is_refused() {
-    write_block(grid_of({4, 4, 4}, 1.0, {500.0, 0.0, 0.0}), folder_ / "far.dcm");
+    write_block(grid_of({4, 4, 4}, glm::dvec3(1.0), {500.0, 0.0, 0.0}), folder_ / "far.dcm");
     const auto far = document::load_speed_map(folder_ / "far.dcm", study_);
     QVERIFY(!far && far.error().kind == ErrorKind::input);
     QVERIFY2(failure(far).contains("far.dcm"), qPrintable(failure(far)));
     // A volume file has the study's voxels, as for all that is made for them.
     Volume volume;
-    volume.geometry = grid_of({6, 5, 4}, 1.0, study_.to_patient({4.0, 5.0, 6.0}));
+    volume.geometry = grid_of({6, 5, 4}, glm::dvec3(1.0), study_.to_patient({4.0, 5.0, 6.0}));
     volume.voxels = std::vector<float>(120, 0.5F);
     QCOMPARE(failure(imaging::write_volume_file(volume, folder_ / "part.nrrd")), QString());
     QVERIFY(!document::load_speed_map(folder_ / "part.nrrd", study_));

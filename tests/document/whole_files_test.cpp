@@ -13,6 +13,7 @@
 #include <random>
 
 #include "core/atomic_file.h"
+#include "core/files_below.h"
 #include "document/session_file.h"
 #include "imaging/deidentify/deidentify.h"
 #include "imaging/dicom/dicom.h"
@@ -88,7 +89,7 @@ Contents make_contents(unsigned version) {
   made.phantom.truth = made.mask;
   made.phantom.random_seed = version;
   if (!imaging::write_dicom_series(made.volume, {}, *made.folder / "images")) qFatal("there are no images");
-  made.images = imaging::files_to_deidentify(*made.folder / "images").value();
+  made.images = files_below(*made.folder / "images").value();
   return made;
 }
 

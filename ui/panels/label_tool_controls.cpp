@@ -95,11 +95,6 @@ bool has_axis(LabelTool tool) {
   return tool == LabelTool::slices || tool == LabelTool::mirror;
 }
 
-bool has_other(LabelTool tool) {
-  return tool == LabelTool::add || tool == LabelTool::subtract || tool == LabelTool::intersect ||
-         tool == LabelTool::watershed;
-}
-
 bool has_other_label(LabelTool tool) {
   return tool == LabelTool::add || tool == LabelTool::watershed;
 }
@@ -192,7 +187,7 @@ void LabelToolControls::choose_tool() {
   show_row(hint_, text != nullptr);
   show_row(amount_, text && text->amount != Amount::none);
   show_row(axis_, chosen && has_axis(*chosen));
-  show_row(other_, chosen && has_other(*chosen));
+  show_row(other_, chosen && document::has_other(*chosen));
   show_row(work_, text != nullptr);
   work_->end({});
   show_row(apply_, text != nullptr);

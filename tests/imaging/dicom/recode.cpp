@@ -18,6 +18,8 @@
 namespace tidemark::test {
 namespace {
 
+constexpr int kLeastJpegLsPixels = 200;
+
 struct Sink {
   std::vector<std::uint8_t> bytes;
   std::size_t at = 0;
@@ -122,13 +124,15 @@ bool recode(const std::filesystem::path& file, E_TransferSyntax syntax, bool is_
   if (loaded.loadFile(file.c_str()).bad()) return false;
   loaded.loadAllDataIntoMemory();
   DcmDataset& dataset = *loaded.getDataset();
+  Uint16 rows = 0;
+  Uint16 columns = 0;
+  Uint16 bits = 0;
+  dataset.findAndGetUint16(DCM_Rows, rows);
+  dataset.findAndGetUint16(DCM_Columns, columns);
+  dataset.findAndGetUint16(DCM_BitsStored, bits);
+  const bool is_jpeg_ls = syntax == EXS_JPEGLSLossless || syntax == EXS_JPEGLSLossy;
+  if (is_jpeg_ls && rows * columns < kLeastJpegLsPixels) return false;
   if (is_j2k(syntax)) {
-    Uint16 rows = 0;
-    Uint16 columns = 0;
-    Uint16 bits = 0;
-    dataset.findAndGetUint16(DCM_Rows, rows);
-    dataset.findAndGetUint16(DCM_Columns, columns);
-    dataset.findAndGetUint16(DCM_BitsStored, bits);
     const auto stream =
         encode_j2k(values_of(dataset, is_signed), columns, rows, bits, is_signed, syntax == EXS_JPEG2000);
     if (stream.empty()) return false;

@@ -13,7 +13,8 @@ namespace tidemark::test {
 // Registers DCMTK's encoders, which recode() needs. To be called once.
 void register_encoders();
 
-// Saves the file again in another transfer syntax; false when that fails.
+// Saves the file again in another transfer syntax; false when that fails, and where a picture is too small
+// for JPEG-LS: DCMTK's encoder (3.6.7) writes beyond its buffer where a stream is longer than the pixels.
 bool recode(const std::filesystem::path& file, E_TransferSyntax syntax, bool is_signed);
 
 // A JPEG 2000 codestream of one component; empty on failure.

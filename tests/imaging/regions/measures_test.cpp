@@ -9,6 +9,7 @@
 
 #include "imaging/regions/diameters.h"
 #include "imaging/regions/inside_values.h"
+#include "tests/support/grid.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -25,13 +26,7 @@ Region region_where(const Geometry& grid, const Wanted& wanted) {
   return region;
 }
 
-Geometry grid_of(Index3 size, glm::dvec3 spacing_mm) {
-  Geometry grid;
-  grid.size = size;
-  grid.spacing_mm = spacing_mm;
-  grid.origin_mm = {-20.0, 35.0, 7.0};
-  return grid;
-}
+constexpr glm::dvec3 kOrigin(-20.0, 35.0, 7.0);
 
 // The middles of the faces where the region ends, in the patient; of those across some axes.
 std::vector<std::pair<glm::dvec3, Index3>> faces(const Region& region, const Geometry& grid,
@@ -98,7 +93,7 @@ class MeasuresTest : public QObject {
   void diameters_are_the_longest_of_all_pairs() {
     QFETCH(unsigned, seed);
     QFETCH(bool, turned);
-    Geometry grid = grid_of({70, 12, 9}, {0.7, 1.1, 2.5});
+    Geometry grid = grid_of({70, 12, 9}, {0.7, 1.1, 2.5}, kOrigin);
     if (turned) grid.direction = sagittal();
     std::mt19937 random(seed);
     std::vector<std::pair<Index3, Index3>> boxes;
@@ -141,7 +136,7 @@ class MeasuresTest : public QObject {
   void an_ellipsoid_has_its_axes() {
     QFETCH(double, turned);
     const glm::dvec3 radii_mm(18.0, 7.0, 11.0);
-    const Geometry grid = grid_of({100, 100, 60}, {0.5, 0.5, 0.5});
+    const Geometry grid = grid_of({100, 100, 60}, {0.5, 0.5, 0.5}, kOrigin);
     const double angle = glm::radians(turned);
     const glm::dvec3 along(std::cos(angle), std::sin(angle), 0.0);
     const glm::dvec3 across(-std::sin(angle), std::cos(angle), 0.0);
@@ -168,7 +163,7 @@ class MeasuresTest : public QObject {
   // An arm of 30 by 4 voxels with a foot of 10 beneath one end: the longest line across goes through the
   // foot.
   void a_form_with_a_corner_is_crossed_from_border_to_border() {
-    const Geometry grid = grid_of({40, 20, 3}, {1.0, 1.0, 4.0});
+    const Geometry grid = grid_of({40, 20, 3}, {1.0, 1.0, 4.0}, kOrigin);
     const Region region = region_where(grid, [](Index3 voxel) {
       const bool arm = voxel.x >= 4 && voxel.x < 34 && voxel.y >= 3 && voxel.y < 7;
       const bool foot = voxel.x >= 4 && voxel.x < 8 && voxel.y >= 3 && voxel.y < 13;
@@ -199,7 +194,7 @@ class MeasuresTest : public QObject {
   }
 
   void one_voxel_is_as_large_as_it_is() {
-    const Geometry grid = grid_of({5, 5, 5}, {0.5, 0.8, 2.0});
+    const Geometry grid = grid_of({5, 5, 5}, {0.5, 0.8, 2.0}, kOrigin);
     const auto found =
         imaging::diameters_of(region_where(grid, [](Index3 v) { return v == Index3(4, 0, 2); }), grid);
     QVERIFY(found.has_value());
@@ -216,7 +211,7 @@ class MeasuresTest : public QObject {
   }
   void values_are_those_of_plain_loops() {
     QFETCH(double, slope);
-    const Geometry grid = grid_of({20, 15, 10}, {4.0, 4.0, 3.0});
+    const Geometry grid = grid_of({20, 15, 10}, {4.0, 4.0, 3.0}, kOrigin);
     std::mt19937 random(7);
     Volume image;
     image.geometry = grid;

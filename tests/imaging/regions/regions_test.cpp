@@ -10,19 +10,13 @@
 #include "imaging/regions/islands.h"
 #include "imaging/regions/margin.h"
 #include "imaging/regions/smoothing.h"
+#include "tests/support/grid.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test::regions_test {
 
 namespace {
-
-Geometry grid_of(Index3 size, glm::dvec3 spacing_mm = glm::dvec3(1.0)) {
-  Geometry grid;
-  grid.size = size;
-  grid.spacing_mm = spacing_mm;
-  return grid;
-}
 
 template <class Wanted>
 Mask mask_where(const Geometry& grid, const Wanted& wanted) {

@@ -5,18 +5,12 @@
 #include <glm/geometric.hpp>
 #include <stop_token>
 
+#include "tests/support/grid.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test::watershed_test {
 
 namespace {
-
-Geometry grid_of(Index3 size, glm::dvec3 spacing_mm = glm::dvec3(1.0)) {
-  Geometry grid;
-  grid.size = size;
-  grid.spacing_mm = spacing_mm;
-  return grid;
-}
 
 Region ball(const Geometry& grid, glm::dvec3 centre_mm, double radius_mm) {
   Region region(VoxelRange{Index3(0), grid.size});

@@ -36,8 +36,8 @@ struct PhiTraffic {
 };
 
 // Settings, recovery and everything else of this program goes into a folder of its own that is gone after it.
-// TIDEMARK_STORY_THEME=dark shows all in the dark theme, TIDEMARK_STORY_LANGUAGE=de speaks German. At the end the test fails if an event held the user
-// interface since the window was there: see WatchedApplication.
+// TIDEMARK_STORY_THEME=dark shows all in the dark theme, TIDEMARK_STORY_LANGUAGE=de speaks German. At the end
+// the test fails if an event held the user interface since the window was there: see WatchedApplication.
 class Desktop {
  public:
   explicit Desktop(solver::ExecutorKind executor, QSize size = {1280, 800}, bool use_opengl = true);

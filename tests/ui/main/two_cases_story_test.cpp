@@ -291,6 +291,8 @@ void TwoCasesStoryTest::one_case_that_goes_back_stops_both() {
   QCOMPARE(one.state().step, 0);
   const std::int64_t step = two.state().step;
   QVERIFY(step > 20);
+  // Alone, the leak alarm would pause it at the dumbbell's neck, if it is closed before that.
+  one.set_leak_rule({});
   // It catches up, and both go on; when the other is closed, it goes on alone.
   two.play();
   QVERIFY(Desktop::wait_for([&] { return one.state().step > step && two.state().step > step; }));

@@ -1,7 +1,7 @@
 #include "tests/ui/main/watched_application.h"
 
-#include <QAbstractEventDispatcher>
 #include <QMetaEnum>
+#include <QScopedValueRollback>
 #include <QThread>
 #include <ctime>
 
@@ -23,30 +23,21 @@ QString told(double ms, const QString& in) {
 }  // namespace
 
 bool WatchedApplication::notify(QObject* receiver, QEvent* event) {
-  // Events within events belong to the outermost one. Other threads have events of their own.
-  if (depth_ > 0 || QThread::currentThread() != thread()) return QApplication::notify(receiver, event);
-  in_now_ = QStringLiteral("%1 of %2")
-                .arg(QMetaEnum::fromType<QEvent::Type>().valueToKey(event->type()),
-                     receiver ? receiver->metaObject()->className() : "");
+  // Other threads have events of their own.
+  if (QThread::currentThread() != thread() || thread()->loopLevel() <= loop_) {
+    return QApplication::notify(receiver, event);
+  }
+  if (loop_ >= 0) note_stretch();
+  const QScopedValueRollback loop(loop_, thread()->loopLevel());
+  const QScopedValueRollback in_now(in_now_,
+                                    QStringLiteral("%1 of %2")
+                                        .arg(QMetaEnum::fromType<QEvent::Type>().valueToKey(event->type()),
+                                             receiver ? receiver->metaObject()->className() : ""));
   since_ms_ = processor_ms();
-  ++depth_;
   const bool handled = QApplication::notify(receiver, event);
-  --depth_;
   note_stretch();
+  since_ms_ = processor_ms();
   return handled;
-}
-
-void WatchedApplication::watch_loops() {
-  // A question that an event asks has a loop of its own, which does what the user does: what kept the user
-  // waiting ends where it turns.
-  auto* dispatcher = QAbstractEventDispatcher::instance();
-  const auto turn = [this] {
-    if (depth_ == 0) return;
-    note_stretch();
-    since_ms_ = processor_ms();
-  };
-  connect(dispatcher, &QAbstractEventDispatcher::aboutToBlock, this, turn);
-  connect(dispatcher, &QAbstractEventDispatcher::awake, this, turn);
 }
 
 void WatchedApplication::note_stretch() {

@@ -7,15 +7,15 @@
 
 namespace tidemark::test {
 
-// Measures how long that thread computes in one event: from where the event begins, or a loop in it turns, to
-// where it ends. Time of the processor is counted and no time on the clock, so that it does not matter what
-// else the machine does.
+// Measures how long that thread computes in one event. Events within it belong to it, but those of a loop of
+// its own are events for themselves: a question that it asks has one, which does what the user does. Time of
+// the processor is counted and no time on the clock, so that it does not matter what else the machine does.
 class WatchedApplication : public QApplication {
  public:
   // No event of a story may take more. Events are to take 50 ms at most; the rest is for slow machines.
   static constexpr double kLimitMs = TIDEMARK_EVENT_LIMIT_MS;
 
-  WatchedApplication(int& argc, char** argv) : QApplication(argc, argv) { watch_loops(); }
+  WatchedApplication(int& argc, char** argv) : QApplication(argc, argv) {}
   bool notify(QObject* receiver, QEvent* event) override;
 
   void restart();  // of longest()
@@ -26,11 +26,10 @@ class WatchedApplication : public QApplication {
   [[nodiscard]] static WatchedApplication& instance();
 
  private:
-  void watch_loops();
   void note_stretch();
 
-  int depth_ = 0;
-  double since_ms_ = 0.0;  // the event began, or the loop in it turned
+  int loop_ = -1;          // the level of the loop whose event is measured; -1: none
+  double since_ms_ = 0.0;  // the event began, or went on after its loop's last event
   QString in_now_;
   double longest_ms_ = 0.0;
   QString in_;
