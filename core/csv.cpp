@@ -127,6 +127,10 @@ std::string quoted(std::string_view text) {
   return field + '"';
 }
 
+bool is_like_formula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+}
+
 }  // namespace
 
 Result<CsvTable> CsvTable::parse(std::string_view text, const std::string& file, const CsvLimits& limits) {
@@ -138,9 +142,12 @@ std::string csv_field(std::string_view text) {
 }
 
 std::string csv_text(std::string_view text) {
-  const bool like_formula =
-      !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
-  return csv_field(like_formula ? "'" + std::string(text) : std::string(text));
+  return csv_field(is_like_formula(text) ? "'" + std::string(text) : std::string(text));
+}
+
+std::string text_of_csv(std::string_view field) {
+  if (!field.empty() && field.front() == '\'' && is_like_formula(field.substr(1))) field.remove_prefix(1);
+  return std::string(field);
 }
 
 std::string csv_line(const std::vector<std::string>& fields) {

@@ -38,6 +38,9 @@ struct CsvTable {
 // The same for text from outside: a spreadsheet takes it for no formula.
 [[nodiscard]] std::string csv_text(std::string_view text);
 
+// The text that csv_text() has written.
+[[nodiscard]] std::string text_of_csv(std::string_view field);
+
 // Fields with commas between them and CRLF behind them.
 [[nodiscard]] std::string csv_line(const std::vector<std::string>& fields);
 

@@ -8,8 +8,8 @@
 #include "document/checksum.h"
 #include "document/cohort/case_status.h"
 #include "document/cohort/cohort_folder.h"
+#include "document/cohort/decisions.h"
 #include "document/cohort/find_cases.h"
-#include "document/cohort/review.h"
 
 namespace tidemark::cli {
 namespace {

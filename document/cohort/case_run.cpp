@@ -13,33 +13,20 @@
 #include "core/unfinished.h"
 #include "core/without_exceptions.h"
 #include "document/checksum.h"
-#include "document/cohort/case_picture.h"
+#include "document/cohort/case_files.h"
 #include "document/cohort/lease.h"
 #include "document/evolution.h"
-#include "document/region_statistics.h"
-#include "document/segment_meshes.h"
 #include "document/speed_map.h"
-#include "document/truth.h"
-#include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
 #include "imaging/load_study.h"
 #include "imaging/results/results.h"
-#include "imaging/surface/surface.h"
-#include "solver/inside_region.h"
 
 namespace tidemark::cohort {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Of the picture of a case, in pixels: small volumes have no more to show.
-int picture_side(const Geometry& grid) {
-  constexpr std::int64_t kLeast = 48;
-  constexpr std::int64_t kMost = 128;
-  return static_cast<int>(std::clamp(std::max({grid.size.x, grid.size.y, grid.size.z}), kLeast, kMost));
-}
 
 // The case while it is computed.
 class Case {
@@ -59,13 +46,8 @@ class Case {
   Status set_seeds();
   Status set_drive();
   Status evolve();
-  Status measure();
   void warn(const document::Evolution& evolution);
   Status write();
-  Status write_outputs();
-  Status write_dicom(CaseOutput output, const fs::path& file);
-  Status write_picture();
-  Status write_recipe();
 
   const CaseRun& run_;
   const WorkRow& row_;
@@ -78,12 +60,11 @@ class Case {
   std::shared_ptr<const Volume> source_;  // as the solver sees it
   document::Recipe recipe_;
   solver::Field phi_;
-  Mask mask_;
+  solver::SurfaceStatistics surface_;
 };
 
 Status Case::compute() {
-  for (const auto step :
-       {&Case::take_recipe, &Case::load, &Case::fill_in, &Case::evolve, &Case::measure, &Case::write}) {
+  for (const auto step : {&Case::take_recipe, &Case::load, &Case::fill_in, &Case::evolve, &Case::write}) {
     TIDEMARK_TRY((this->*step)());
     if (progress_.cancelled()) return cancelled_error();
   }
@@ -209,29 +190,14 @@ Status Case::evolve() {
   recipe_.executor = evolution->executor;
   recipe_.steps = evolution->advance.steps;
   CaseFigures figures;
-  figures.volume_ml = evolution->surface.volume_ml;
-  figures.surface_mm2 = evolution->surface.surface_mm2;
-  figures.voxels_inside = evolution->surface.voxels_inside;
   figures.steps = evolution->advance.steps;
   figures.solver_seconds = evolution->advance.seconds;
   figures.solver_outcome = document::name_of(evolution->outcome);
-  figures.unit = source_->unit;
   status_.figures = figures;
+  surface_ = evolution->surface;
   phi_ = std::move(evolution->phi);
-  mask_ = phi_.mask();
   warn(*evolution);
   return {};
-}
-
-bool touches_border(const solver::Field& phi) {
-  const VoxelRange inside = solver::inside_region(phi).bounds();
-  if (inside.empty()) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::int64_t size = phi.geometry.size[axis];
-    // An axis of few voxels has nothing but a border.
-    if (size > 2 && (inside.low[axis] == 0 || inside.high[axis] == size)) return true;
-  }
-  return false;
 }
 
 void Case::warn(const document::Evolution& evolution) {
@@ -243,89 +209,11 @@ void Case::warn(const document::Evolution& evolution) {
   when(outcome == Outcome::vanished || outcome == Outcome::seeded_outside, CaseWarning::vanished);
   when(outcome == Outcome::filled_volume, CaseWarning::filled);
   when(!row_.steps && outcome == Outcome::unfinished, CaseWarning::not_converged);
-  when(touches_border(phi_), CaseWarning::touches_border);
-}
-
-Status Case::measure() {
-  document::ValueSums sums;
-  // The sums want stored values: those of a smoothed volume are its own.
-  std::visit(
-      [&](const auto& voxels) {
-        for (std::size_t i = 0; i < voxels.size(); ++i) {
-          if (mask_.voxels[i] != 0) sums.add(static_cast<double>(voxels[i]));
-        }
-      },
-      source_->voxels);
-  if (sums.voxels > 0) status_.figures->mean_inside = sums.result(*source_).mean;
-  if (row_.truth.empty()) return {};
-  const auto truth = document::load_truth(row_.truth, row_.truth_label, source_->geometry, progress_);
-  if (!truth) return pass_on(truth);
-  status_.figures->dice = dice(mask_, *truth);
-  return {};
-}
-
-Status Case::write_picture() {
-  const CasePicture picture = case_picture(*source_, mask_, picture_side(source_->geometry));
-  return imaging::write_png_file(picture.width, picture.height, picture.pixels, folder_ / "overview.png");
-}
-
-// A start that is too large for a file is no reason to lose the case.
-Status Case::write_recipe() {
-  const auto text = recipe_.to_text();
-  if (!text) {
-    status_.remarks.push_back("recipe.json: is left out: " + text.error().message);
-    return {};
-  }
-  status_.files.emplace_back("recipe.json");
-  return write_file(folder_ / "recipe.json", *text);
-}
-
-Status Case::write_dicom(CaseOutput output, const fs::path& file) {
-  imaging::Segments segments = imaging::segments_of(mask_, "Segment");
-  segments.list.front().phi = std::make_shared<const Volume>(phi_.to_volume());
-  const std::vector<fs::path> sources = imaging::dicom_files_of(series_);
-  Status written = output == CaseOutput::segmentation
-                       ? imaging::write_segmentation(segments, sources, file, progress_)
-                       : imaging::write_structure_set(segments, sources, file, progress_);
-  // A grid that DICOM cannot describe is no lack of memory.
-  if (!written && written.error().kind == ErrorKind::capability) written.error().kind = ErrorKind::input;
-  return written;
-}
-
-Status Case::write_outputs() {
-  for (const CaseOutput output : run_.plan.outputs) {
-    constexpr const char* kFiles[] = {"seg.dcm", "rtstruct.dcm", "surface.stl", "phi.nii.gz"};
-    const std::string name = kFiles[static_cast<std::size_t>(output)];
-    const fs::path file = folder_ / name;
-    // Without a voxel inside there is no segment and no surface.
-    if (status_.figures->voxels_inside == 0 && output != CaseOutput::level_set) continue;
-    switch (output) {
-      case CaseOutput::segmentation:
-      case CaseOutput::structure_set:
-        TIDEMARK_TRY(write_dicom(output, file));
-        break;
-      case CaseOutput::surface: {
-        const auto mesh = document::mesh_of(phi_);
-        if (!mesh) return pass_on(mesh);
-        TIDEMARK_TRY(imaging::write_mesh(*mesh, file));
-        break;
-      }
-      case CaseOutput::level_set:
-        TIDEMARK_TRY(imaging::write_volume_file(phi_.to_volume(), file));
-    }
-    status_.files.push_back(name);
-  }
-  return {};
 }
 
 Status Case::write() {
-  status_.files.emplace_back("mask.nii.gz");
-  TIDEMARK_TRY(imaging::write_mask_file(mask_, folder_ / "mask.nii.gz"));
-  TIDEMARK_TRY(write_outputs());
-  TIDEMARK_TRY(write_recipe());
-  if (!run_.plan.pictures) return {};
-  status_.files.emplace_back("overview.png");
-  return write_picture();
+  const CaseResult result{*source_, phi_, surface_, recipe_, imaging::dicom_files_of(series_)};
+  return write_case_files(run_.plan, row_, result, folder_, status_, progress_);
 }
 
 CaseOutcome outcome_of(ErrorKind kind) {

@@ -65,6 +65,36 @@ std::string_view name_of(CaseWarning warning) {
   return kWarnings[static_cast<std::size_t>(warning)];
 }
 
+std::string_view words_of(CaseWarning warning) {
+  switch (warning) {
+    case CaseWarning::vanished:
+      return "vanished";
+    case CaseWarning::filled:
+      return "filled the volume";
+    case CaseWarning::not_converged:
+      return "still moving";
+    case CaseWarning::touches_border:
+      return "touches the border";
+  }
+  return {};
+}
+
+std::string_view words_of(CaseOutcome outcome) {
+  switch (outcome) {
+    case CaseOutcome::done:
+      return "done";
+    case CaseOutcome::refused:
+      return "refused";
+    case CaseOutcome::timed_out:
+      return "timed out";
+    case CaseOutcome::out_of_memory:
+      return "out of memory";
+    case CaseOutcome::failed:
+      return "failed";
+  }
+  return {};
+}
+
 std::string CaseStatus::to_text() const {
   Json object{{"format", "tidemark case status"},
               {"version", kVersion},
@@ -86,6 +116,7 @@ std::string CaseStatus::to_text() const {
               {"files", files}};
   for (const CaseWarning warning : warnings) object["warnings"].push_back(name_of(warning));
   if (figures) object["figures"] = to_json(*figures);
+  if (corrected) object["corrected"] = true;
   return written(object);
 }
 
@@ -116,6 +147,7 @@ Result<CaseStatus> CaseStatus::parse(std::string_view text, const std::string& f
   }
   status.remarks = read_texts(root.at("remarks"));
   status.files = read_texts(root.at("files"));
+  if (root.has("corrected")) status.corrected = root.at("corrected").boolean();
   if (root.has("figures")) status.figures = read_figures(root.at("figures"));
   if (!root.good()) return tl::unexpected(root.status().error());
   return status;

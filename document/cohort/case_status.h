@@ -24,6 +24,9 @@ enum class CaseOutcome {
 // What a person looks at first.
 enum class CaseWarning { vanished, filled, not_converged, touches_border };
 [[nodiscard]] std::string_view name_of(CaseWarning warning);
+// For people: "timed out", "touches the border".
+[[nodiscard]] std::string_view words_of(CaseOutcome outcome);
+[[nodiscard]] std::string_view words_of(CaseWarning warning);
 
 struct CaseFigures {
   double volume_ml = 0.0;
@@ -33,7 +36,7 @@ struct CaseFigures {
   std::optional<double> dice;         // against the truth
   std::int64_t steps = 0;
   double solver_seconds = 0.0;
-  std::string solver_outcome;  // as document::name_of(Outcome) says
+  std::string solver_outcome;  // as document::name_of(Outcome) says; "corrected" where a person has done so
   std::string unit;            // of the values; empty when they have none
   bool operator==(const CaseFigures&) const = default;
 };
@@ -46,6 +49,7 @@ struct CaseStatus {
   CaseOutcome outcome = CaseOutcome::failed;
   std::string reason;  // of any outcome but `done`: one line
   std::int64_t attempt = 1;
+  bool corrected = false;  // a person's result is in the place of the run's
   std::string input, series;
   std::string input_checksum;   // see document/checksum.h; empty: it was not read
   std::string recipe_checksum;  // of the recipe's file; empty: there was none

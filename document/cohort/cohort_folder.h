@@ -28,6 +28,8 @@ struct CohortPlan {
 // Paths alone; nothing need be there.
 //   work.csv plan.json recipe.json recipes/   the plan
 //   cases/ID/                                 a case that is done, whatever its outcome
+//   cases/ID/automatic/                       what a run had made of it, where a person has corrected it
+//   decisions.csv                             what people have said of cases
 //   leases/ staging/                          the work of runs that compute
 class CohortFolder {
  public:
@@ -45,6 +47,16 @@ class CohortFolder {
   [[nodiscard]] std::filesystem::path status(const std::string& id) const {
     return case_folder(id) / "status.json";
   }
+  [[nodiscard]] std::filesystem::path automatic(const std::string& id) const {
+    return case_folder(id) / "automatic";
+  }
+  [[nodiscard]] std::filesystem::path picture(const std::string& id) const {
+    return case_folder(id) / "overview.png";
+  }
+  [[nodiscard]] std::filesystem::path case_recipe(const std::string& id) const {
+    return case_folder(id) / "recipe.json";
+  }
+  [[nodiscard]] std::filesystem::path decisions() const { return folder_ / "decisions.csv"; }
   [[nodiscard]] bool is_planned() const;
 
   // The names in cases/. Fails (ErrorKind::input).

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <system_error>
+#include <unordered_map>
 
 #include "core/text_file.h"
 
@@ -37,36 +38,6 @@ std::string filled(std::string_view page, const std::map<std::string_view, std::
   return text;
 }
 
-std::string_view words_of(CaseWarning warning) {
-  switch (warning) {
-    case CaseWarning::vanished:
-      return "vanished";
-    case CaseWarning::filled:
-      return "filled the volume";
-    case CaseWarning::not_converged:
-      return "still moving";
-    case CaseWarning::touches_border:
-      return "touches the border";
-  }
-  return {};
-}
-
-std::string_view words_of(CaseOutcome outcome) {
-  switch (outcome) {
-    case CaseOutcome::done:
-      return "done";
-    case CaseOutcome::refused:
-      return "refused";
-    case CaseOutcome::timed_out:
-      return "timed out";
-    case CaseOutcome::out_of_memory:
-      return "out of memory";
-    case CaseOutcome::failed:
-      return "failed";
-  }
-  return {};
-}
-
 std::string picture_of(const CohortFolder& folder, const CaseStatus& status, PagePictures pictures) {
   const std::string name = "overview.png";
   if (std::find(status.files.begin(), status.files.end(), name) == status.files.end()) return {};
@@ -87,7 +58,6 @@ std::string figures_of(const ReviewedCase& one) {
     const auto value = review_figures()[static_cast<std::size_t>(figure)].value(one.status);
     if (!value) continue;
     const double z = one.z[figure].value_or(0.0);
-    constexpr double kFarOff = 3.5;  // as Iglewicz and Hoaglin advise
     text += fmt::format("<tr{}><th>{}</th><td>{:.5g}</td><td>{:+.1f}</td></tr>",
                         std::abs(z) > kFarOff ? " class=\"far\"" : "",
                         review_figures()[static_cast<std::size_t>(figure)].title, *value, z);
@@ -95,16 +65,27 @@ std::string figures_of(const ReviewedCase& one) {
   return text;
 }
 
-std::string card_of(const CohortFolder& folder, const ReviewedCase& one, PagePictures pictures) {
+// What the folder keeps of a case.
+std::string decision_of(const Decision& decision) {
+  return fmt::format(" data-decision=\"{}\" data-comment=\"{}\"", word_of(decision.verdict),
+                     html_text(decision.comment));
+}
+
+using Decisions = std::unordered_map<std::string_view, const Decision*>;
+
+std::string card_of(const CohortFolder& folder, const ReviewedCase& one, const Decisions& decisions,
+                    PagePictures pictures) {
   const CaseStatus& status = one.status;
-  std::string warnings;
+  std::string warnings = status.corrected ? "<b>corrected</b> " : "";
   for (const CaseWarning warning : status.warnings) {
     warnings += fmt::format("<b class=\"warning\">{}</b> ", words_of(warning));
   }
   const std::string id = html_text(status.id);
-  std::string card =
-      fmt::format("<article id=\"case-{}\" data-id=\"{}\" data-outcome=\"{}\" tabindex=\"0\"><h2>{}</h2>", id,
-                  id, name_of(status.outcome), id);
+  std::string card = fmt::format("<article id=\"case-{}\" data-id=\"{}\" data-outcome=\"{}\"", id, id,
+                                 name_of(status.outcome));
+  if (const auto said = decisions.find(status.id); said != decisions.end())
+    card += decision_of(*said->second);
+  card += fmt::format(" tabindex=\"0\"><h2>{}</h2>", id);
   card += picture_of(folder, status, pictures);
   if (status.outcome != CaseOutcome::done) {
     card += fmt::format("<p class=\"failed\">{}: {}</p>", words_of(status.outcome), html_text(status.reason));
@@ -195,12 +176,14 @@ PagePictures suitable_pictures(const CohortFolder& folder, const Review& review)
 
 Result<std::string> report_page(const CohortFolder& folder, const Review& review, PagePictures pictures,
                                 const Progress& progress) {
+  Decisions decisions;
+  for (const Decision& decision : review.decisions) decisions.emplace(decision.id, &decision);
   std::string cards;
   const std::size_t count = std::min(review.cases.size(), kMostCards);
   for (std::size_t i = 0; i < count; ++i) {
     if (progress.cancelled()) return cancelled_error();
     progress(static_cast<double>(i) / static_cast<double>(count), "writing the report");
-    cards += card_of(folder, review.cases[i], pictures);
+    cards += card_of(folder, review.cases[i], decisions, pictures);
   }
   std::string charts;
   for (int figure = 0; figure < kReviewFigures; ++figure) charts += histogram_svg(review, figure);

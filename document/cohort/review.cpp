@@ -7,7 +7,6 @@
 
 #include "core/csv.h"
 #include "core/json/json.h"
-#include "core/text_file.h"
 
 namespace tidemark::cohort {
 namespace {
@@ -114,6 +113,11 @@ Result<Review> review(const CohortFolder& folder, const WorkList& list, const Pr
       review.unreadable.push_back(status.error().message);
     }
   }
+  if (auto decisions = load_decisions(folder)) {
+    review.decisions = std::move(*decisions);
+  } else {
+    review.unreadable.push_back(decisions.error().message);
+  }
   set_scales(review);
   set_unusual(review);
   std::stable_sort(review.cases.begin(), review.cases.end(),
@@ -127,7 +131,8 @@ std::string review_csv(const Review& review) {
     names.emplace_back(figure.name);
     names.push_back(std::string("z_") + figure.name);
   }
-  for (const char* name : {"steps", "seconds", "peak_memory_mb", "warnings", "reason", "input", "series"}) {
+  for (const char* name :
+       {"steps", "seconds", "peak_memory_mb", "warnings", "reason", "input", "series", "corrected"}) {
     names.emplace_back(name);
   }
   std::string text = csv_line(names);
@@ -146,6 +151,7 @@ std::string review_csv(const Review& review) {
     for (const std::string& field : {joined(status.warnings), status.reason, status.input, status.series}) {
       fields.push_back(csv_text(field));
     }
+    fields.emplace_back(status.corrected ? "yes" : "");
     text += csv_line(fields);
   }
   return text;
@@ -159,9 +165,13 @@ std::string review_json(const Review& review) {
   }
   for (const ReviewedCase& one : review.cases) {
     const CaseStatus& status = one.status;
-    Json entry{{"id", status.id},           {"outcome", name_of(status.outcome)},
-               {"seconds", status.seconds}, {"peak_memory_bytes", status.peak_memory_bytes},
-               {"reason", status.reason},   {"input", status.input},
+    Json entry{{"id", status.id},
+               {"outcome", name_of(status.outcome)},
+               {"seconds", status.seconds},
+               {"peak_memory_bytes", status.peak_memory_bytes},
+               {"reason", status.reason},
+               {"input", status.input},
+               {"corrected", status.corrected},
                {"warnings", Json::array()}};
     for (const CaseWarning warning : status.warnings) entry["warnings"].push_back(name_of(warning));
     if (status.outcome == CaseOutcome::done) entry["unusual"] = one.unusual;
@@ -172,35 +182,6 @@ std::string review_json(const Review& review) {
     object["cases"].push_back(std::move(entry));
   }
   return object.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-Result<std::vector<Decision>> load_decisions(const std::filesystem::path& file) {
-  const auto text = read_text_file(file, CsvLimits().bytes);
-  if (!text) return pass_on(text);
-  const auto table = CsvTable::parse(*text, file.string());
-  if (!table) return pass_on(table);
-  if (table->header != std::vector<std::string>{"id", "decision", "comment"}) {
-    return fail(ErrorKind::input, "{}: line 1: the columns must be id, decision, comment", file.string());
-  }
-  std::vector<Decision> decisions;
-  for (const CsvRow& row : table->rows) {
-    Decision decision{row.fields[0], Decision::Verdict::none, row.fields[2]};
-    if (!is_safe_id(decision.id)) {
-      return fail(ErrorKind::input, "{}: line {}: id: '{}' is none of a case", file.string(), row.line,
-                  decision.id);
-    }
-    const std::string& word = row.fields[1];
-    if (word == "accept") {
-      decision.verdict = Decision::Verdict::accepted;
-    } else if (word == "reject") {
-      decision.verdict = Decision::Verdict::rejected;
-    } else if (!word.empty()) {
-      return fail(ErrorKind::input, "{}: line {}: decision: '{}' is neither accept nor reject", file.string(),
-                  row.line, word);
-    }
-    decisions.push_back(std::move(decision));
-  }
-  return decisions;
 }
 
 }  // namespace tidemark::cohort

@@ -9,6 +9,7 @@
 #include "core/progress.h"
 #include "document/cohort/case_status.h"
 #include "document/cohort/cohort_folder.h"
+#include "document/cohort/decisions.h"
 
 namespace tidemark::cohort {
 
@@ -22,6 +23,9 @@ struct RobustScale {
   static RobustScale of(std::vector<double> values);
   [[nodiscard]] double z(double value) const { return spread > 0.0 ? (value - median) / spread : 0.0; }
 };
+
+// A |z| that a person should look at, as Iglewicz and Hoaglin advise.
+inline constexpr double kFarOff = 3.5;
 
 // The figures by which cases are compared, in this order.
 inline constexpr int kReviewFigures = 4;
@@ -42,27 +46,18 @@ struct Review {
   std::vector<ReviewedCase> cases;      // the most unusual first
   std::vector<std::string> not_done;    // ids
   RobustScale scales[kReviewFigures];   // of cases with a result
-  std::vector<std::string> unreadable;  // statuses, one sentence each
+  std::vector<Decision> decisions;      // as the folder keeps them; of cases that are not in the list, too
+  std::vector<std::string> unreadable;  // statuses, and the table of decisions; one sentence each
 
   [[nodiscard]] std::int64_t count(CaseOutcome outcome) const;
 };
 
-// Reads the status of each row. A status that cannot be read is no reason to lose the others. Fails with
-// ErrorKind::cancelled.
+// Reads the status of each row, and what people have said. What cannot be read is no reason to lose the rest.
+// Fails with ErrorKind::cancelled.
 Result<Review> review(const CohortFolder& folder, const WorkList& list, const Progress& progress = {});
 
 // A line a case, with each of its figures and its z. Text from outside is no formula of a spreadsheet.
 [[nodiscard]] std::string review_csv(const Review& review);
 [[nodiscard]] std::string review_json(const Review& review);
-
-// What a person said of a case.
-struct Decision {
-  std::string id;
-  enum class Verdict { none, accepted, rejected } verdict = Verdict::none;
-  std::string comment;
-};
-// The table that the report's page saves: id, decision (accept, reject or nothing), comment. Fails
-// (ErrorKind::input) naming file, line and column.
-Result<std::vector<Decision>> load_decisions(const std::filesystem::path& file);
 
 }  // namespace tidemark::cohort

@@ -4,6 +4,14 @@
   const key = 'tidemark-cohort:' + location.pathname;
   let decisions = {};
   try { decisions = JSON.parse(localStorage.getItem(key)) || {}; } catch (error) { decisions = {}; }
+  // What the folder keeps. What was said here stays where the folder still keeps what it did then.
+  const nothing = JSON.stringify(['', '']);
+  for (const card of cards) {
+    const { id, decision = '', comment = '' } = card.dataset;
+    const folder = JSON.stringify([decision, comment]);
+    const known = decisions[id] ? decisions[id].folder || nothing : nothing;
+    if (known !== folder) decisions[id] = { decision, comment, folder };
+  }
   let saved = true;
 
   const show = (card) => {
@@ -20,8 +28,7 @@
       `${of('accept')} accepted, ${of('reject')} rejected, ${cards.length} cases`;
   };
   const change = (card, part) => {
-    const one = { ...decisions[card.dataset.id], ...part };
-    if (one.decision || one.comment) decisions[card.dataset.id] = one; else delete decisions[card.dataset.id];
+    decisions[card.dataset.id] = { ...decisions[card.dataset.id], ...part };
     saved = false;
     try { localStorage.setItem(key, JSON.stringify(decisions)); } catch (error) { /* a full or closed store */ }
     show(card);
@@ -57,7 +64,7 @@
     const lines = ['id,decision,comment'];
     for (const card of cards) {
       const one = decisions[card.dataset.id];
-      if (one) lines.push([card.dataset.id, one.decision || '', field(one.comment || '')].join(','));
+      if (one && (one.decision || one.comment)) lines.push([card.dataset.id, one.decision || '', field(one.comment || '')].join(','));
     }
     const link = document.createElement('a');
     link.href = URL.createObjectURL(new Blob([lines.join('\r\n') + '\r\n'], { type: 'text/csv' }));

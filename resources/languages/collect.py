@@ -19,6 +19,7 @@ CALLS = {"tr": {0}, "translate": {1}, "QT_TRANSLATE_NOOP": {1}, "fail": {1}, "pr
 # Tables of the folders below the user interface, whose texts are shown: members of these names, and columns.
 MEMBERS = ("title", "text", "unit")
 TABLES = {"document/lesson_figure.cpp": r'^\s+\{"\w+", "[^"]*", "([^"]+)"',
+          "document/cohort/case_status.cpp": r'^\s+return "([a-z ]+)";',
           "imaging/results/segment_meaning.cpp": r'^\s+\{"([a-z-]+)", '}
 # Here every text of some words is part of what users are told of a file.
 SENTENCES = ("core", "document", "engine", "imaging")

@@ -42,7 +42,9 @@ def anchors(page):
 def check_panels():
     docks = (source / "ui/main/panel_docks.cpp").read_text()
     keys = set(re.findall(r'\badd\("([a-z-]+)", tr\(', docks))
-    keys |= set(re.findall(r'dock_->setObjectName\("([a-z-]+)"\)', (source / "ui/main/teaching.cpp").read_text()))
+    for file in ["teaching", "cohort_review"]:
+        text = (source / f"ui/main/{file}.cpp").read_text()
+        keys |= set(re.findall(r'dock_->setObjectName\("([a-z-]+)"\)', text))
     if len(keys) < 10 or "lesson" not in keys:
         faults.append(f"few panels found in the code: {sorted(keys)}")
     pages = {page.stem for page in (book / "panels").glob("*.md")}

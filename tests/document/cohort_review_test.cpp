@@ -1,6 +1,7 @@
 // The review of a cohort: what is unusual, and text from outside that stays text.
 #include "core/atomic_file.h"
 #include "core/csv.h"
+#include "document/cohort/decisions.h"
 #include "document/cohort/report_page.h"
 #include "document/cohort/review.h"
 #include "tests/support/support.h"
@@ -73,6 +74,7 @@ class CohortReviewTest : public QObject {
   void cases_without_a_result_come_before_all();
   void a_status_that_cannot_be_read_loses_no_other();
   void a_status_is_read_as_it_was_written();
+  void the_page_begins_with_what_was_said();
   void text_of_a_hostile_case_stays_text();
   void a_table_holds_no_formula();
   void base64_is_that_of_rfc_4648();
@@ -142,6 +144,24 @@ void CohortReviewTest::a_status_is_read_as_it_was_written() {
   const auto read = CaseStatus::parse(status.to_text(), "status.json");
   QCOMPARE(test::failure(read), QString());
   QVERIFY(*read == status);
+}
+
+void CohortReviewTest::the_page_begins_with_what_was_said() {
+  const SmallCohort cohort(3);
+  std::filesystem::create_directories(cohort.folder().leases());
+  QVERIFY(cohort::decide(cohort.folder(), {"case1", {}, {}},
+                         {"case1", cohort::Decision::Verdict::rejected, "a \"leak\""}));
+  const QString page = page_of(cohort);
+  QVERIFY(
+      page.contains("data-id=\"case1\" data-outcome=\"done\" data-decision=\"reject\" "
+                    "data-comment=\"a &quot;leak&quot;\""));
+  QCOMPARE(page.count("data-decision=\""), 1);
+  // A damaged table loses nothing else, and is named.
+  QVERIFY(write_file(cohort.folder().decisions(), "no table\r\n"));
+  const cohort::Review review = cohort.review();
+  QCOMPARE(review.cases.size(), std::size_t{3});
+  QCOMPARE(review.unreadable.size(), std::size_t{1});
+  QVERIFY(review.unreadable.front().find("decisions.csv") != std::string::npos);
 }
 
 void CohortReviewTest::text_of_a_hostile_case_stays_text() {

@@ -78,6 +78,16 @@ void Actions::make_files() {
                       tr("Go on with a session that was saved"));
   query_server = make("query-server", "server", tr("Query a ser&ver…"), QKeySequence("Ctrl+Alt+O"), false,
                       tr("Find a series in a PACS and open it"));
+  open_cohort = make("open-cohort", "open-folder", tr("&Open cohort…"), {}, false,
+                     tr("Go through the cases that tidemark-cli cohort has computed"));
+  next_case =
+      make("next-case", nullptr, tr("&Next case"), QKeySequence("N"), false, tr("Open the next case"));
+  previous_case = make("previous-case", nullptr, tr("&Previous case"), QKeySequence("Shift+N"), false,
+                       tr("Open the previous case"));
+  accept_case = make("accept-case", nullptr, tr("&Accept the case"), QKeySequence("Shift+A"), false,
+                     tr("The result of this case is right; a changed surface takes its place"));
+  reject_case = make("reject-case", nullptr, tr("&Reject the case"), QKeySequence("Shift+R"), false,
+                     tr("The result of this case is wrong"));
   import_labels = make("import-labels", "label", tr("I&mport labels…"), QKeySequence("Ctrl+I"), true,
                        tr("Add labels from a DICOM segmentation, an RT structure set or a label map"));
   compare_with_mask = make("compare-with-mask", "target", tr("Compare wit&h a mask…"), {}, true,
@@ -186,7 +196,7 @@ void Actions::make_tools() {
        tr("Measure a distance"));
   tool(engine::Tool::measure_angle, "tool-angle", "tool-angle", tr("A&ngle"), "A",
        tr("Measure an angle: one drag to the vertex, one to the other end"));
-  tool(engine::Tool::profile, "tool-profile", "tool-profile", tr("Line pr&ofile"), "N",
+  tool(engine::Tool::profile, "tool-profile", "tool-profile", tr("Line pr&ofile"), "J",
        tr("Draw a line in a slice: φ and brightness along it are plotted in the panel Level set"));
   tool(engine::Tool::examples, "tool-examples", "tool-examples", tr("E&xamples"), "M",
        tr("Mark examples in slices: left button inside, right button outside, with Ctrl takes away"));

@@ -27,6 +27,11 @@ class Actions : public QObject {
   QAction* open_file;
   QAction* open_session;
   QAction* query_server;
+  QAction* open_cohort;
+  QAction* next_case;
+  QAction* previous_case;
+  QAction* accept_case;
+  QAction* reject_case;
   QAction* add_image;
   QAction* add_series;
   QAction* import_labels;

@@ -25,6 +25,7 @@
 #include "ui/main/case_links.h"
 #include "ui/main/case_messages.h"
 #include "ui/main/case_results.h"
+#include "ui/main/cohort_review.h"
 #include "ui/main/film_writer.h"
 #include "ui/main/first_steps.h"
 #include "ui/main/focus_chain.h"
@@ -75,6 +76,7 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   films_ = new FilmWriter(*this, *files_);
   session_reader_ = new SessionReader(*this);
   session_writer_ = new SessionWriter(*this, *files_);
+  cohort_ = new CohortReview(*this);
   make_centre();
   panels_ = new PanelDocks(*this, *actions_);
   teaching_ = new Teaching(*this);
@@ -169,6 +171,8 @@ void MainWindow::open(const QString& path) {
     open_link(path);
   } else if (path.endsWith(".tidemark")) {
     session_reader_->open(path);
+  } else if (CohortReview::is_cohort(path)) {
+    cohort_->open(path);
   } else {
     opener_->open(path);
   }
@@ -197,7 +201,8 @@ void MainWindow::open_phantom(const QString& kind) {
 }
 
 CaseWindow* MainWindow::add_case(const std::shared_ptr<const engine::LoadedStudy>& study,
-                                 const engine::RestoredCase& restored) {
+                                 const engine::RestoredCase& restored,
+                                 std::optional<solver::ExecutorKind> executor) {
   const bool from_session = restored.contents && !restored.rescued;  // the session file is remembered instead
   if (!study->origin.path.empty() && !from_session) {
     const RecentStudy recent{QString::fromStdString(study->origin.path.string()),
@@ -206,8 +211,8 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const engine::LoadedStudy
     recent_->add(recent);
     recent_->add_picture(recent, study->volume, study->summary.window, study->volume->geometry.size.z / 2);
   }
-  auto* window =
-      new CaseWindow(std::make_unique<engine::CaseProxy>(engine_, study, executor_, restored), *actions_);
+  auto* window = new CaseWindow(
+      std::make_unique<engine::CaseProxy>(engine_, study, executor.value_or(executor_), restored), *actions_);
   window->proxy().display().change([&](engine::DisplaySettings& settings) {
     if (active_) {
       settings.tool = active_->proxy().display().settings().tool;
@@ -242,6 +247,7 @@ MainWindow::Kept MainWindow::keep() {
   kept.large_type = teaching_->large_type();
   kept.executor = executor_;
   kept.lesson = teaching_->keep();
+  kept.cohort = cohort_->keep();
   panels_->set_case(nullptr);
   status_bar_->set_proxy(nullptr);
   const CaseWindow* active = std::exchange(active_, nullptr);
@@ -279,6 +285,7 @@ void MainWindow::take_over(Kept kept) {
   }
   if (!taken.isEmpty()) centre_->setCurrentWidget(area_);
   if (kept.active >= 0) bring_to_front(*taken[kept.active]);
+  cohort_->take_over(kept.cohort);
   if (kept.lesson) teaching_->take_over(std::move(kept.lesson));
   teaching_->set_large_type(kept.large_type);
   actions_->hide_interface->setChecked(kept.panels_hidden);
@@ -364,6 +371,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
 void MainWindow::follow_case() {
   actions_->follow(active_ ? &active_->proxy() : nullptr);
   actions_->link->setChecked(active_ && active_->linked());
+  cohort_->follow_case();
 }
 
 void MainWindow::connect_views() {
@@ -413,7 +421,7 @@ void MainWindow::connect_help() {
 // The window itself.
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!teaching_->may_close()) return event->ignore();
+  if (!cohort_->may_close() || !teaching_->may_close()) return event->ignore();
   area_->closeAllSubWindows();
   if (!area_->subWindowList().isEmpty()) {
     // The user keeps a case open, or saves one; closing is tried again after that.

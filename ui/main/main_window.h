@@ -3,11 +3,13 @@
 
 #include <QMainWindow>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/engine.h"
 #include "ui/main/actions.h"
 #include "ui/main/case_window.h"
+#include "ui/main/kept_cohort.h"
 
 class QMdiSubWindow;
 class QStackedWidget;
@@ -25,6 +27,7 @@ class FilmWriter;
 class CaseFiles;
 class CaseLinks;
 class CaseResults;
+class CohortReview;
 class Help;
 class ImageAdder;
 class MessageBar;
@@ -44,11 +47,12 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(engine::Engine& engine, QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  // A folder, an image file, a session file, or a link (StudyLink).
+  // A folder with a study or a cohort, an image file, a session file, or a link (StudyLink).
   void open(const QString& path);
   void open_phantom(const QString& kind);
   CaseWindow* add_case(const std::shared_ptr<const engine::LoadedStudy>& study,
-                       const engine::RestoredCase& restored = {});
+                       const engine::RestoredCase& restored = {},
+                       std::optional<solver::ExecutorKind> executor = std::nullopt);  // unset: of new cases
 
   // What another main window needs to go on with the same cases, and with the lesson that is being done.
   // Nothing but deleting this one may follow, and the cases must outlive it.
@@ -62,6 +66,7 @@ class MainWindow : public QMainWindow {
     bool large_type = false;
     solver::ExecutorKind executor = solver::ExecutorKind::automatic;  // of new cases
     std::unique_ptr<KeptLesson> lesson;
+    KeptCohort cohort;
   };
   [[nodiscard]] Kept keep();
   void take_over(Kept kept);
@@ -79,6 +84,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] SessionWriter& session_writer() { return *session_writer_; }
   [[nodiscard]] ImageAdder& images() { return *images_; }
   [[nodiscard]] CaseResults& results() { return *results_; }
+  [[nodiscard]] CohortReview& cohort() { return *cohort_; }
   [[nodiscard]] Teaching& teaching() { return *teaching_; }
   [[nodiscard]] Help& help() { return *help_; }
   // The executor of new cases.
@@ -135,6 +141,7 @@ class MainWindow : public QMainWindow {
   SessionReader* session_reader_ = nullptr;
   SessionWriter* session_writer_ = nullptr;
   CaseResults* results_ = nullptr;
+  CohortReview* cohort_ = nullptr;
   ImageAdder* images_ = nullptr;
   Teaching* teaching_ = nullptr;
   Help* help_ = nullptr;

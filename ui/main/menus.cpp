@@ -19,13 +19,18 @@ namespace {
 void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent) {
   QMenu* file = window.menuBar()->addMenu(MainWindow::tr("&File"));
   file->addActions({actions.open_folder, actions.open_file, actions.open_session, actions.query_server});
-  QObject::connect(actions.query_server, &QAction::triggered, &window, [&window] { (void)query_server(window); });
+  QObject::connect(actions.query_server, &QAction::triggered, &window,
+                   [&window] { (void)query_server(window); });
   file->addMenu(recent.make_menu(file));
   auto* phantoms = new PhantomMenu(file);
   phantoms->setTitle(MainWindow::tr("&Phantoms"));
   phantoms->setIcon(icon(u"phantom"));
   QObject::connect(phantoms, &PhantomMenu::chosen, &window, &MainWindow::open_phantom);
   file->addMenu(phantoms);
+  QMenu* cohort = file->addMenu(MainWindow::tr("Cohor&t"));
+  cohort->addActions({actions.open_cohort, actions.next_case, actions.previous_case});
+  cohort->addSeparator();
+  cohort->addActions({actions.accept_case, actions.reject_case});
   file->addSeparator();
   file->addActions({actions.add_image, actions.add_series, actions.import_labels, actions.compare_with_mask,
                     actions.compare_with_label, actions.stop_comparing, actions.save, actions.save_as});

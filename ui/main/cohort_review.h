@@ -1,0 +1,109 @@
+// A cohort in the desktop: its panel, the case of it that is open, and what is said of the cases.
+#pragma once
+
+#include <QObject>
+#include <QPointer>
+#include <QString>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "document/cohort/review_list.h"
+#include "document/session_contents.h"
+#include "engine/work_queue.h"
+#include "ui/main/case_window.h"
+#include "ui/main/kept_cohort.h"
+
+class QDockWidget;
+
+namespace tidemark::engine {
+class BackgroundJob;
+struct LoadedStudy;
+}  // namespace tidemark::engine
+
+namespace tidemark::ui {
+
+class CaseOpener;
+class CohortModel;
+class CohortPanel;
+class MainWindow;
+
+// One cohort, and one case of it, at a time. What is said is said of the chosen case. While it is another one
+// than the user sees, nothing can be said.
+class CohortReview : public QObject {
+  Q_OBJECT
+ public:
+  explicit CohortReview(MainWindow& window);
+  ~CohortReview() override;
+
+  [[nodiscard]] static bool is_cohort(const QString& folder);
+  void ask_and_open();
+  void open(const QString& folder);
+  // Another case is the active one, or it has changed.
+  void follow_case();
+  // Whether the main window may close. While a correction is written it does so later, by itself.
+  [[nodiscard]] bool may_close();
+  // What was said is on the disk then, unless the disk takes seconds.
+  [[nodiscard]] KeptCohort keep();
+  void take_over(const KeptCohort& kept);
+
+ private:
+  using Verdict = cohort::Decision::Verdict;
+
+  // To be read, and shown as it was.
+  struct Wanted {
+    QString folder;
+    std::string chosen, open;
+    QPointer<CaseWindow> window;  // of `open`
+  };
+  // The surface as the history has it: steps, and edits since the start.
+  using Surface = std::pair<std::int64_t, std::uint64_t>;
+
+  void connect_actions();
+  void read(const Wanted& wanted);
+  void read_again();
+  void show(cohort::ReviewList list, const Wanted& wanted);
+  void close();
+  void go(int by);
+  // Asks about changes of the open case first.
+  void open_row(int row);
+  void load(int row);
+  void give_up();
+  void add(const std::shared_ptr<const engine::LoadedStudy>& study,
+           const std::shared_ptr<const document::SessionContents>& contents);
+  void take_case(CaseWindow* window, int row);
+  void leave(CaseWindow& window);
+  [[nodiscard]] bool is_changed() const;  // the open case's surface
+  [[nodiscard]] int meant_row() const;    // of which can be spoken; -1: none
+  void accept();
+  void correct();
+  void write_correction(CaseWindow& window,
+                        const std::shared_ptr<const engine::CaseProxy::Snapshot>& snapshot);
+  void end_correction(const Status& written);
+  void say(int row, Verdict verdict, const QString& comment);
+
+  MainWindow& window_;
+  std::optional<Wanted> wanted_;  // while it is read
+  std::shared_ptr<engine::BackgroundJob> reading_;
+  QString path_;  // of the cohort; empty: none is open
+  std::shared_ptr<const cohort::CohortPlan> plan_;
+  std::unique_ptr<CohortModel> model_;
+  QPointer<CohortPanel> panel_;
+  QDockWidget* dock_ = nullptr;
+
+  std::unique_ptr<CaseOpener> opener_;
+  int opening_ = -1;  // the row of the case that is being opened
+  QPointer<CaseWindow> case_;
+  int case_row_ = -1;
+  std::optional<Surface> result_;  // of the open case; unset: it has none, or it is not known yet
+
+  bool correcting_ = false;    // the open case
+  std::string after_it_;       // the case to be opened then; empty: none
+  bool closes_later_ = false;  // the main window
+  engine::WorkQueue writing_;
+};
+
+}  // namespace tidemark::ui
