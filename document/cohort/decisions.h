@@ -1,4 +1,4 @@
-// What people have said of the cases of a cohort, as a table.
+// Decisions of people about the cases of a cohort, as a table.
 #pragma once
 
 #include <filesystem>

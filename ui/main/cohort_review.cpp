@@ -35,6 +35,10 @@ cohort::CohortFolder folder_of(const QString& path) {
   return cohort::CohortFolder(path_of(path));
 }
 
+CohortCase::Surface surface_of(const document::Recipe& recipe) {
+  return {recipe.steps, recipe.events.size()};
+}
+
 }  // namespace
 
 CohortReview::CohortReview(MainWindow& window)
@@ -86,10 +90,10 @@ void CohortReview::ask_and_open() {
 }
 
 void CohortReview::open(const QString& folder) {
-  read({folder, {}, {}, nullptr});
+  read({folder, {}, nullptr});
 }
 
-void CohortReview::read(const Wanted& wanted) {
+void CohortReview::read(const KeptCohort& wanted) {
   if (reading_) reading_->abandon();
   wanted_ = wanted;
   const auto fail = [this](const Error& error) {
@@ -103,20 +107,14 @@ void CohortReview::read(const Wanted& wanted) {
     job.deliver([this, fail, list] {
       reading_.reset();
       if (!*list) return fail(list->error());
-      const Wanted now = *std::exchange(wanted_, std::nullopt);
+      const KeptCohort now = *std::exchange(wanted_, std::nullopt);
       show(std::move(**list), now);
     });
   };
   reading_ = engine::BackgroundJob::start(this, work, fail);
 }
 
-// Somebody else has changed it.
-void CohortReview::read_again() {
-  const KeptCohort now = keep();
-  read({now.folder, now.chosen, now.open, case_});
-}
-
-void CohortReview::show(cohort::ReviewList list, const Wanted& wanted) {
+void CohortReview::show(cohort::ReviewList list, const KeptCohort& wanted) {
   close();
   window_.settle(kAboutCohort);
   path_ = wanted.folder;
@@ -126,7 +124,7 @@ void CohortReview::show(cohort::ReviewList list, const Wanted& wanted) {
   panel_ = new CohortPanel(
       *model_, {actions.previous_case, actions.next_case, actions.accept_case, actions.reject_case});
   // The panel may go away with what is asked for.
-  connect(panel_, &CohortPanel::open_wanted, this, &CohortReview::open_row, Qt::QueuedConnection);
+  connect(panel_, &CohortPanel::open_wanted, this, &CohortReview::open_case, Qt::QueuedConnection);
   connect(panel_, &CohortPanel::close_wanted, this, &CohortReview::close, Qt::QueuedConnection);
   connect(panel_, &CohortPanel::chosen, this, &CohortReview::follow_case);
   connect(panel_, &CohortPanel::commented, this,
@@ -142,7 +140,7 @@ void CohortReview::show(cohort::ReviewList list, const Wanted& wanted) {
   dock_->setWidget(panel_);
   dock_->show();
   if (const int row = model_->row_of(wanted.chosen); row >= 0) panel_->choose(row);
-  if (const int row = model_->row_of(wanted.open); row >= 0 && wanted.window) take_case(wanted.window, row);
+  if (wanted.open && wanted.open->window && model_->row_of(wanted.open->id) >= 0) take_case(wanted.open);
   follow_case();
   if (list.unreadable.empty()) return;
   window_.tell(tr("%1. Files that cannot be read: %2.")
@@ -157,9 +155,7 @@ void CohortReview::close() {
   opener_->cancel();
   opening_ = -1;
   delete panel_;  // it keeps the comment that is being typed
-  case_ = nullptr;
-  case_row_ = -1;
-  result_.reset();
+  open_.reset();
   correcting_ = false;
   after_it_.clear();
   model_.reset();
@@ -177,28 +173,24 @@ bool CohortReview::may_close() {
 }
 
 KeptCohort CohortReview::keep() {
-  if (wanted_)
-    return {wanted_->folder, wanted_->chosen, wanted_->open,
-            wanted_->window ? &wanted_->window->proxy() : nullptr};
-  if (path_.isEmpty()) return {};
-  panel_->keep_comment();
+  if (panel_) panel_->keep_comment();
   writing_.wait(2s);
+  return present();
+}
+
+KeptCohort CohortReview::present() const {
+  if (wanted_) return *wanted_;
+  if (path_.isEmpty()) return {};
   const int row = panel_->row();
-  KeptCohort kept{path_, row >= 0 ? model_->at(row).row.id : std::string(), {}, nullptr};
-  if (case_) {
-    kept.open = model_->at(case_row_).row.id;
-    kept.opened = &case_->proxy();
-  }
-  return kept;
+  return {path_, row >= 0 ? model_->at(row).row.id : std::string(), open_window() ? open_ : nullptr};
 }
 
 void CohortReview::take_over(const KeptCohort& kept) {
   if (kept.folder.isEmpty()) return;
-  Wanted wanted{kept.folder, kept.chosen, kept.open, nullptr};
   for (CaseWindow* window : window_.cases()) {
-    if (&window->proxy() == kept.opened) wanted.window = window;
+    if (kept.open && &window->proxy() == kept.open->proxy) kept.open->window = window;
   }
-  read(wanted);
+  read(kept);
 }
 
 // Its cases.
@@ -216,32 +208,41 @@ void CohortReview::follow_case() {
   if (panel_) panel_->set_correction(corrects);
 }
 
+CaseWindow* CohortReview::open_window() const {
+  return open_ ? open_->window.data() : nullptr;
+}
+
+int CohortReview::open_row() const {
+  return open_window() ? model_->row_of(open_->id) : -1;
+}
+
 bool CohortReview::is_changed() const {
-  if (!case_ || !case_->proxy().state().begun) return false;
-  const engine::CaseState& state = case_->proxy().state();
-  return result_ != Surface(state.step, state.steered);
+  CaseWindow* window = open_window();
+  if (!window || !window->proxy().state().begun) return false;
+  const engine::CaseState& state = window->proxy().state();
+  return open_->result != CohortCase::Surface(state.step, state.steered);
 }
 
 int CohortReview::meant_row() const {
   const int row = panel_->row();
-  if (!case_) return window_.active_case() == nullptr ? row : -1;
-  return row == case_row_ && window_.active_case() == case_ ? row : -1;
+  if (!open_window()) return window_.active_case() == nullptr ? row : -1;
+  return row == open_row() && window_.active_case() == open_window() ? row : -1;
 }
 
 void CohortReview::go(int by) {
   if (!panel_) return;
   const int row = panel_->row() + by;
-  if (row >= 0 && row < model_->rowCount()) return open_row(row);
+  if (row >= 0 && row < model_->rowCount()) return open_case(row);
   window_.statusBar()->showMessage(by > 0 ? tr("This is the last case.") : tr("This is the first case."),
                                    kNoticeMs);
 }
 
-void CohortReview::open_row(int row) {
+void CohortReview::open_case(int row) {
   if (!panel_ || row >= model_->rowCount()) return;
   if (opening_ >= 0) give_up();
-  if (case_ && row == case_row_) {
+  if (row == open_row()) {
     panel_->choose(row);
-    return window_.bring_to_front(*case_);
+    return window_.bring_to_front(*open_window());
   }
   const std::string id = model_->at(row).row.id;
   if (correcting_) {
@@ -249,22 +250,22 @@ void CohortReview::open_row(int row) {
     return;
   }
   if (!is_changed()) return load(row);
-  QMessageBox box(QMessageBox::Question, tr("Cohort"),
-                  tr("The surface of %1 was changed. Is it the correct one?")
-                      .arg(QString::fromStdString(model_->at(case_row_).row.id)),
-                  QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  QMessageBox box(
+      QMessageBox::Question, tr("Cohort"),
+      tr("The surface of %1 was changed. Is it the correct one?").arg(QString::fromStdString(open_->id)),
+      QMessageBox::Discard | QMessageBox::Cancel, &window_);
   QAbstractButton* accepted = box.addButton(tr("Accept the correction"), QMessageBox::AcceptRole);
-  const QPointer asked(case_);
+  const auto asked = open_;
   box.exec();
   // Meanwhile the case, or the cohort, may have gone.
-  if (!asked || asked != case_) return;
-  panel_->choose(case_row_);
+  if (!open_window() || asked != open_) return;
+  panel_->choose(open_row());
   if (box.clickedButton() == accepted) {
     after_it_ = id;
     return correct();
   }
   if (box.standardButton(box.clickedButton()) != QMessageBox::Discard) return;
-  leave(*case_);
+  leave(*open_window());
   if (const int wanted = model_->row_of(id); wanted >= 0) load(wanted);
 }
 
@@ -291,12 +292,15 @@ void CohortReview::add(const std::shared_ptr<const engine::LoadedStudy>& study,
   const int row = std::exchange(opening_, -1);
   panel_->work().end({});
   window_.settle(kAboutCohort);
-  const QPointer before(case_);
+  const QPointer before(open_window());
   const bool is_free = before && !is_changed();
   // Computed as a run would go on, so that the recipe makes the same voxels everywhere.
   CaseWindow* opened = window_.add_case(study, {contents, false}, solver::ExecutorKind::host);
-  take_case(opened, row);
-  if (contents) result_ = Surface(contents->recipe.steps, contents->recipe.events.size());
+  const cohort::ReviewEntry& entry = model_->at(row);
+  auto open =
+      std::make_shared<CohortCase>(CohortCase{entry.row.id, &opened->proxy(), opened, {}, entry.status});
+  if (contents) open->result = surface_of(contents->recipe);
+  take_case(std::move(open));
   if (is_free) leave(*before);
   // The panels of the first case bring back an arrangement that knows of no cohort.
   const auto show = [this] {
@@ -305,11 +309,15 @@ void CohortReview::add(const std::shared_ptr<const engine::LoadedStudy>& study,
   QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
 }
 
-void CohortReview::take_case(CaseWindow* window, int row) {
-  case_ = window;
-  case_row_ = row;
-  result_.reset();
-  connect(window, &QObject::destroyed, this, &CohortReview::follow_case);
+void CohortReview::take_case(std::shared_ptr<CohortCase> open) {
+  open_ = std::move(open);
+  connect(open_->window, &QObject::destroyed, this, &CohortReview::follow_closing);
+  follow_case();
+}
+
+// Without the case there is no snapshot of it.
+void CohortReview::follow_closing() {
+  if (correcting_ && !is_written_ && !open_window()) end_correction(cancelled_error());
   follow_case();
 }
 
@@ -328,51 +336,51 @@ void CohortReview::accept() {
 }
 
 void CohortReview::correct() {
-  engine::CaseProxy& proxy = case_->proxy();
-  proxy.pause();
+  CaseWindow& window = *open_window();
+  window.proxy().pause();
   panel_->keep_comment();
   panel_->work().begin(tr("Writing the correction"));
   correcting_ = true;
+  is_written_ = false;
   follow_case();
-  const auto write = [this, path = path_, window = QPointer(case_)](const auto& snapshot) {
-    if (!correcting_ || !window || window != case_ || path != path_) return;
-    write_correction(*window, snapshot);
+  const auto write = [this, open = open_](const auto& snapshot) {
+    if (correcting_ && open == open_) write_correction(snapshot);
   };
-  const auto give_up = [this, window = QPointer(case_)] {
-    if (window == case_) end_correction({});
+  const auto give_up = [this, open = open_] {
+    if (correcting_ && open == open_) end_correction(cancelled_error());
   };
-  proxy.take_snapshot(case_->view_state(), write, give_up);
+  window.proxy().take_snapshot(window.view_state(), write, give_up);
 }
 
 // The correction, and that it was accepted, are one piece of work: neither is written alone.
-void CohortReview::write_correction(CaseWindow& window,
-                                    const std::shared_ptr<const engine::CaseProxy::Snapshot>& snapshot) {
-  const cohort::ReviewEntry entry = model_->at(case_row_);
+void CohortReview::write_correction(const std::shared_ptr<const engine::CaseProxy::Snapshot>& snapshot) {
+  is_written_ = true;
+  const engine::CaseProxy& proxy = open_->window->proxy();
+  const cohort::ReviewEntry entry = model_->at(open_row());
   const cohort::Decision decision{entry.row.id, Verdict::accepted, entry.decision.comment};
   const auto status = std::make_shared<cohort::CaseStatus>();
   const auto work =
-      [entry, decision, status, snapshot, folder = folder_of(path_), plan = plan_,
-       study = window.proxy().shared_study(), source = window.proxy().source(),
+      [entry, decision, status, snapshot, seen = open_->seen, folder = folder_of(path_), plan = plan_,
+       study = proxy.shared_study(), source = proxy.source(),
        program = QCoreApplication::applicationVersion().toStdString()](const Progress& progress) -> Status {
     const document::SessionContents& contents = snapshot->contents;
     const solver::SurfaceStatistics surface = solver::measure(*contents.phi);
     const cohort::CaseResult result{*source, *contents.phi, surface, contents.recipe, study->dicom_files};
-    auto made = cohort::correct_case(folder, *plan, entry.row, entry.status, result, program, progress);
+    auto made = cohort::correct_case(folder, *plan, entry.row, seen, result, program, progress);
     if (!made) return pass_on(made);
     *status = std::move(*made);
     return cohort::decide(folder, entry.decision, decision);
   };
-  const auto ended = [this, decision, status, snapshot, path = path_,
-                      window = QPointer(&window)](const Status& written) {
-    if (path != path_) return;
-    if (!status->id.empty()) model_->set_status(*status);
-    if (written) model_->set_decision(decision);
-    if (written && window && window == case_) {
-      const document::Recipe& recipe = snapshot->contents.recipe;
-      result_ = Surface(recipe.steps, recipe.events.size());
+  const auto ended = [this, decision, status, snapshot, open = open_, path = path_](const Status& written) {
+    if (path != path_ || open != open_) return;
+    if (!status->id.empty()) {
+      model_->set_status(*status);
+      open->seen = *status;
+      open->result = surface_of(snapshot->contents.recipe);
       // The cohort keeps all of it, but for labels.
-      if (snapshot->contents.labels.empty()) window->proxy().mark_saved(*snapshot);
+      if (open->window && snapshot->contents.labels.empty()) open->window->proxy().mark_saved(*snapshot);
     }
+    if (written) model_->set_decision(decision);
     end_correction(written);
   };
   writing_.add(work, ended);
@@ -381,15 +389,19 @@ void CohortReview::write_correction(CaseWindow& window,
 void CohortReview::end_correction(const Status& written) {
   correcting_ = false;
   const std::string next = std::exchange(after_it_, {});
+  const bool closes = std::exchange(closes_later_, false);
   if (panel_) panel_->work().end({});
-  if (!written && written.error().kind != ErrorKind::cancelled)
-    window_.tell(engine::message_text(written.error()), kAboutCohort);
-  if (written && std::exchange(closes_later_, false))
-    QMetaObject::invokeMethod(&window_, &QWidget::close, Qt::QueuedConnection);
-  closes_later_ = false;
   follow_case();
-  if (!written || !model_) return;
-  if (const int row = model_->row_of(next); row >= 0) open_row(row);
+  if (!written) {
+    if (written.error().kind == ErrorKind::cancelled) return;
+    window_.tell(engine::message_text(written.error()), kAboutCohort);
+    // Somebody else has changed the case. This one stays open, as any other.
+    const std::string id = open_ ? open_->id : std::string();
+    if (written.error().kind == ErrorKind::usage && !path_.isEmpty()) read({path_, id, nullptr});
+    return;
+  }
+  if (closes) QMetaObject::invokeMethod(&window_, &QWidget::close, Qt::QueuedConnection);
+  if (const int row = model_->row_of(next); row >= 0) open_case(row);
 }
 
 void CohortReview::say(int row, Verdict verdict, const QString& comment) {
@@ -403,7 +415,7 @@ void CohortReview::say(int row, Verdict verdict, const QString& comment) {
   writing_.add(work, [this, path = path_](const Status& written) {
     if (written) return;
     window_.tell(engine::message_text(written.error()), kAboutCohort);
-    if (path == path_) read_again();
+    if (path == path_) read(present());  // as somebody else has left it
   });
 }
 

@@ -31,6 +31,18 @@ class CohortModel;
 class CohortPanel;
 class MainWindow;
 
+// The case of a cohort that is open.
+struct CohortCase {
+  // A surface as the history has it: steps, and edits since the start.
+  using Surface = std::pair<std::int64_t, std::uint64_t>;
+
+  std::string id;
+  const engine::CaseProxy* proxy = nullptr;  // by which another main window knows it
+  QPointer<CaseWindow> window;
+  std::optional<Surface> result;           // that the cohort has; unset: none
+  std::optional<cohort::CaseStatus> seen;  // likewise
+};
+
 // One cohort, and one case of it, at a time. What is said is said of the chosen case. While it is another one
 // than the user sees, nothing can be said.
 class CohortReview : public QObject {
@@ -53,40 +65,33 @@ class CohortReview : public QObject {
  private:
   using Verdict = cohort::Decision::Verdict;
 
-  // To be read, and shown as it was.
-  struct Wanted {
-    QString folder;
-    std::string chosen, open;
-    QPointer<CaseWindow> window;  // of `open`
-  };
-  // The surface as the history has it: steps, and edits since the start.
-  using Surface = std::pair<std::int64_t, std::uint64_t>;
-
+  [[nodiscard]] KeptCohort present() const;
   void connect_actions();
-  void read(const Wanted& wanted);
-  void read_again();
-  void show(cohort::ReviewList list, const Wanted& wanted);
+  void read(const KeptCohort& wanted);
+  void show(cohort::ReviewList list, const KeptCohort& wanted);
   void close();
   void go(int by);
   // Asks about changes of the open case first.
-  void open_row(int row);
+  void open_case(int row);
   void load(int row);
   void give_up();
   void add(const std::shared_ptr<const engine::LoadedStudy>& study,
            const std::shared_ptr<const document::SessionContents>& contents);
-  void take_case(CaseWindow* window, int row);
+  void take_case(std::shared_ptr<CohortCase> open);
+  void follow_closing();
   void leave(CaseWindow& window);
-  [[nodiscard]] bool is_changed() const;  // the open case's surface
-  [[nodiscard]] int meant_row() const;    // of which can be spoken; -1: none
+  [[nodiscard]] CaseWindow* open_window() const;  // null: none
+  [[nodiscard]] int open_row() const;             // -1: none
+  [[nodiscard]] bool is_changed() const;          // the open case's surface
+  [[nodiscard]] int meant_row() const;            // of which can be spoken; -1: none
   void accept();
   void correct();
-  void write_correction(CaseWindow& window,
-                        const std::shared_ptr<const engine::CaseProxy::Snapshot>& snapshot);
+  void write_correction(const std::shared_ptr<const engine::CaseProxy::Snapshot>& snapshot);
   void end_correction(const Status& written);
   void say(int row, Verdict verdict, const QString& comment);
 
   MainWindow& window_;
-  std::optional<Wanted> wanted_;  // while it is read
+  std::optional<KeptCohort> wanted_;  // while it is read
   std::shared_ptr<engine::BackgroundJob> reading_;
   QString path_;  // of the cohort; empty: none is open
   std::shared_ptr<const cohort::CohortPlan> plan_;
@@ -95,12 +100,11 @@ class CohortReview : public QObject {
   QDockWidget* dock_ = nullptr;
 
   std::unique_ptr<CaseOpener> opener_;
-  int opening_ = -1;  // the row of the case that is being opened
-  QPointer<CaseWindow> case_;
-  int case_row_ = -1;
-  std::optional<Surface> result_;  // of the open case; unset: it has none, or it is not known yet
+  int opening_ = -1;                  // the row of the case that is being opened
+  std::shared_ptr<CohortCase> open_;  // its window may be gone
 
   bool correcting_ = false;    // the open case
+  bool is_written_ = false;    // the correction: it has got what it needs of the case
   std::string after_it_;       // the case to be opened then; empty: none
   bool closes_later_ = false;  // the main window
   engine::WorkQueue writing_;

@@ -2,19 +2,17 @@
 #pragma once
 
 #include <QString>
+#include <memory>
 #include <string>
-
-namespace tidemark::engine {
-class CaseProxy;
-}
 
 namespace tidemark::ui {
 
+struct CohortCase;
+
 struct KeptCohort {
-  QString folder;                             // empty: none is open
-  std::string chosen;                         // the id of a case; empty: none
-  std::string open;                           // likewise
-  const engine::CaseProxy* opened = nullptr;  // as which `open` is open, among those of the main window
+  QString folder;                    // empty: none is open
+  std::string chosen;                // the id of a case; empty: none
+  std::shared_ptr<CohortCase> open;  // null: none
 };
 
 }  // namespace tidemark::ui

@@ -325,6 +325,7 @@ void CohortStoryTest::it_stays_open_when_the_language_changes() {
   static_cast<void>(WatchedApplication::instance().take_held());
   QCOMPARE(&desktop.proxy(), before);
   QCOMPARE(panel(desktop)->row(), row_of(desktop, "anna"));
+  QVERIFY(enabled(desktop, "Accept the case"));  // it was not changed
 }
 
 void CohortStoryTest::a_folder_that_is_no_cohort_is_refused() {

@@ -242,7 +242,7 @@ void CurvesStoryTest::phi_along_a_line_is_plotted_and_moves() {
   desktop.proxy().display().change([&](engine::DisplaySettings& s) { s.cursor_mm = seed; });
   desktop.wait_until_idle();
   auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
-  desktop.press(Qt::Key_N);
+  desktop.press(Qt::Key_J);
   QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::profile);
   auto* controls = part<ui::ProfileControls>(desktop);
   QVERIFY(controls);
