@@ -157,6 +157,7 @@ void CohortReview::close() {
   delete panel_;  // it keeps the comment that is being typed
   open_.reset();
   correcting_ = false;
+  closes_later_ = false;
   after_it_.clear();
   model_.reset();
   plan_.reset();
