@@ -29,6 +29,10 @@ int available_processors() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+int reading_threads() {
+  return std::max(available_processors(), 4);
+}
+
 ThreadPool::ThreadPool(int threads) {
   const int members = threads > 0 ? threads : available_processors();
   shares_ = std::vector<Share>(static_cast<std::size_t>(members));

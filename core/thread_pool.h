@@ -73,4 +73,8 @@ class ThreadPool {
 // The processors that this process may use (its affinity mask), at least 1.
 int available_processors();
 
+// Threads to read many small files with, at least 4: they wait for a disk, which may be far away, at the same
+// time.
+int reading_threads();
+
 }  // namespace tidemark

@@ -5,14 +5,17 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "core/thread_pool.h"
 #include "core/typed_volume.h"
 #include "imaging/archive/study_archive.h"
 #include "imaging/dicom/dicom.h"
 #include "imaging/dicom/series_geometry.h"
+#include "imaging/dicom/shared_progress.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/guard/guarded.h"
 
@@ -41,22 +44,39 @@ void leave_out_pictures(Catalogue& catalogue) {
   catalogue.series.erase(pictures, catalogue.series.end());
 }
 
+// Of each file what it holds as a volume file; nothing where its name is that of none.
+std::vector<std::optional<Result<Series>>> scan_volume_files(const std::vector<SkippedFile>& files,
+                                                             const Progress& progress) {
+  std::vector<std::optional<Result<Series>>> scanned(files.size());
+  SharedProgress shared(progress, static_cast<std::int64_t>(files.size()), "reading headers");
+  ThreadPool pool(reading_threads());
+  const auto count = static_cast<std::int64_t>(files.size());
+  pool.for_each(count, 4, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end && !progress.cancelled(); ++i) {
+      const fs::path& file = files[static_cast<std::size_t>(i)].file;
+      if (is_readable_volume_file(file)) scanned[static_cast<std::size_t>(i)] = scan_volume_file(file);
+      shared.advance();
+    }
+  });
+  return scanned;
+}
+
 // Files that are no DICOM may be volume files.
 Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progress) {
   auto catalogue = scan_dicom(folder, progress);
   if (!catalogue) return catalogue;
+  auto scanned = scan_volume_files(catalogue->skipped, progress);
+  if (progress.cancelled()) return cancelled_error();
   std::vector<SkippedFile> skipped;
-  for (SkippedFile& candidate : catalogue->skipped) {
-    if (!is_readable_volume_file(candidate.file)) {
+  for (std::size_t i = 0; i < scanned.size(); ++i) {
+    SkippedFile& candidate = catalogue->skipped[i];
+    if (!scanned[i]) {
       if (is_zip_archive(candidate.file)) candidate.reason = "is a zip archive, which is opened by itself";
       skipped.push_back(std::move(candidate));
-      continue;
-    }
-    auto series = scan_volume_file(candidate.file);
-    if (series) {
-      catalogue->series.push_back(std::move(*series));
+    } else if (*scanned[i]) {
+      catalogue->series.push_back(std::move(**scanned[i]));
     } else {
-      skipped.push_back({std::move(candidate.file), std::move(series.error().message)});
+      skipped.push_back({std::move(candidate.file), std::move(scanned[i]->error().message)});
     }
   }
   catalogue->skipped = std::move(skipped);

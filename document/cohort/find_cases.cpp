@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLeastReaders = 4;  // threads
-
 bool is_there(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
@@ -278,8 +276,7 @@ std::vector<bool> check_cases(FoundCases& found, const std::string& file, const 
   const auto count = static_cast<std::int64_t>(list.rows.size());
   std::vector<std::vector<std::string>> problems(list.rows.size());
   std::atomic<std::int64_t> checked{0};
-  // Headers lie on a disk that may be far away: waiting for several at once is most of the gain.
-  ThreadPool pool(std::max(available_processors(), kLeastReaders));
+  ThreadPool pool(reading_threads());
   pool.for_each(count, 16, [&](std::int64_t begin, std::int64_t end, int member) {
     if (progress.cancelled()) return;
     for (std::int64_t i = begin; i < end; ++i) {

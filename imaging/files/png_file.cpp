@@ -19,14 +19,12 @@ Status write_png_file(std::int64_t width, std::int64_t height, std::span<const s
   image.width = static_cast<png_uint_32>(width);
   image.height = static_cast<png_uint_32>(height);
   image.format = PNG_FORMAT_RGBA;
-  png_alloc_size_t size = 0;
-  const auto encode = [&](void* memory) {
-    return png_image_write_to_memory(&image, memory, &size, 0, pixels.data(), 0, nullptr) != 0;
-  };
-  std::string bytes;
-  if (!encode(nullptr)) return fail(ErrorKind::write, "{}: {}", file.string(), image.message);
-  bytes.resize(size);
-  if (!encode(bytes.data())) return fail(ErrorKind::write, "{}: {}", file.string(), image.message);
+  // The most that it can take: pictures are encoded once, and not first for their size.
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
+    return fail(ErrorKind::write, "{}: {}", file.string(), image.message);
+  }
   bytes.resize(size);
   return write_file(file, bytes);
 }
