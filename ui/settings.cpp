@@ -74,14 +74,19 @@ void set_setting(const QString& name, const QVariant& value) {
   if (!is_locked(name)) QSettings().setValue(name, value);
 }
 
+Setting<QString> settings::retrieval_folder() {
+  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  return Setting<QString>("pacs/folder", documents + "/Tidemark");
+}
+
 QString settings::site_file() {
   return QString::fromStdString((site_folder() / "tidemark.conf").string());
 }
 
 std::vector<SettingText> settings::all() {
-  return {described(language()),           described(theme()),       described(layout()),
-          described(mouse_scheme()),       described(open_folder()), described(save_folder()),
-          described(retrieval_folder({})), described(server())};
+  return {described(language()),         described(theme()),       described(layout()),
+          described(mouse_scheme()),     described(open_folder()), described(save_folder()),
+          described(retrieval_folder()), described(server())};
 }
 
 QString settings::print() {

@@ -109,9 +109,8 @@ inline Setting<QString> open_folder() {
 inline Setting<QString> save_folder() {
   return Setting<QString>("save/folder");
 }
-inline Setting<QString> retrieval_folder(const QString& at_first) {
-  return Setting<QString>("pacs/folder", at_first);
-}
+// For what comes from servers; at first Tidemark in the user's documents.
+[[nodiscard]] Setting<QString> retrieval_folder();
 inline Setting<QString> server() {  // by name; the one used last
   return Setting<QString>("pacs/server");
 }

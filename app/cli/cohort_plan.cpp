@@ -4,6 +4,7 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/cohort_commands.h"
+#include "app/cli/pacs_commands.h"
 #include "core/text_file.h"
 #include "document/checksum.h"
 #include "document/cohort/case_status.h"
@@ -14,18 +15,21 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Makes a work list of the studies in a folder, in BIDS or in a list";
+constexpr const char* kSummary =
+    "Makes a work list of studies in a folder, in BIDS, in a list or on a server";
 constexpr const char* kDescription =
     "Writes DIR/work.csv, a row a case, and DIR/plan.json; nothing is computed. SOURCE is a folder with "
     "studies\n"
-    "anywhere below it, a BIDS dataset, a list (.csv, its columns named by its first line; input is needed), "
-    "or\n"
-    "an earlier cohort's folder. Of the recipe its parameters, smoothing and speed at its end are used, and "
+    "anywhere below it, a BIDS dataset, a list (.csv, its columns named by its first line; input or server "
+    "is\n"
+    "needed), an earlier cohort's folder, or pacs:SERVER, whose series are brought when they are computed. "
+    "Of the recipe its parameters, smoothing and speed at its end are used, and "
     "its\n"
     "start in patient mm where a case has none of its own. What is wrong is said for all rows at once, and "
     "then\n"
     "nothing is written.\n"
-    "Columns of a list: id, input, series, recipe, mask, within_mm, seed (i,j,k,r; several with blanks "
+    "Columns of a list: id, input, server, study, series, recipe, mask, within_mm, seed (i,j,k,r; several "
+    "with blanks "
     "between),\n"
     "seed_mm (x,y,z,r), threshold (lo,hi), auto_start (yes or no), speed_map, target, range, alpha, "
     "smooth_mm,\n"
@@ -34,11 +38,12 @@ constexpr const char* kExamples =
     "  tidemark-cli cohort plan archive/ --recipe liver.json --auto-start --out livers\n"
     "  tidemark-cli cohort plan bids/ --match '*_T1w.nii.gz' --recipe brain.json --out brains\n"
     "  tidemark-cli cohort plan cases.csv --recipe liver.json --output seg --out livers\n"
+    "  tidemark-cli cohort plan pacs:main --modality CT --from 2026-01-01 --recipe liver.json --out livers\n"
     "  tidemark-cli cohort plan livers --rejected decisions.csv --recipe wider.json --out livers-2\n";
 constexpr std::size_t kMostSaid = 100;  // problems in words; all are counted
 
 struct PlanArguments {
-  std::string source, out, recipe, rejected;
+  std::string source, out, recipe, rejected, servers;
   cohort::FindOptions find;
   bool without_edits = false, auto_start = false, no_pictures = false, skip_problems = false;
   std::vector<std::string> outputs;
@@ -76,6 +81,8 @@ class PlanCommand {
  private:
   Status take_outputs();
   Status take_recipe();
+  Status check_source() const;
+  Status read_servers();
   Status find();
   Status keep_rejected();
   Status check();
@@ -86,6 +93,7 @@ class PlanCommand {
   cohort::CohortFolder folder_;
   cohort::CohortPlan plan_;
   std::string recipe_text_;
+  cohort::FindOptions options_;
   cohort::FoundCases found_;
   std::size_t skipped_ = 0;
 };
@@ -94,13 +102,14 @@ Status PlanCommand::run() {
   if (folder_.is_planned()) {
     return fail(ErrorKind::usage, "--out {}: holds a cohort already; name a new folder", arguments_.out);
   }
+  TIDEMARK_TRY(check_source());
   for (const auto step : {&PlanCommand::take_outputs, &PlanCommand::take_recipe, &PlanCommand::find,
                           &PlanCommand::keep_rejected, &PlanCommand::check}) {
     TIDEMARK_TRY((this->*step)());
     if (console_.interrupted()) return cancelled_error();
   }
   plan_.pictures = !arguments_.no_pictures;
-  plan_.source = std::filesystem::absolute(arguments_.source).lexically_normal().string();
+  plan_.source = found_.place;
   plan_.program = TIDEMARK_VERSION;
   plan_.planned = cohort::utc_now();
   TIDEMARK_TRY(folder_.write_plan(plan_, found_.list, recipe_text_));
@@ -136,9 +145,40 @@ Status PlanCommand::take_recipe() {
   return {};
 }
 
+// Options that the source has no use for are a mistake.
+Status PlanCommand::check_source() const {
+  const bool is_server = arguments_.source.starts_with(cohort::kPacsSource);
+  const cohort::FindOptions& find = arguments_.find;
+  if (is_server && find.query.studies.modality.empty()) {
+    return fail(ErrorKind::usage, "{}: needs --modality: reports and segmentations are no cases",
+                arguments_.source);
+  }
+  if (is_server && !(find.match.empty() && find.mask.empty() && find.truth.empty())) {
+    return fail(ErrorKind::usage, "--match, --mask, --truth: are for folders, not for {}", arguments_.source);
+  }
+  if (!is_server && find.query != cohort::PacsQuery()) {
+    return fail(ErrorKind::usage, "{}: a query is for a SOURCE like {}main", arguments_.source,
+                cohort::kPacsSource);
+  }
+  return {};
+}
+
+Status PlanCommand::read_servers() {
+  plan_.servers_file = std::filesystem::absolute(servers_file(arguments_.servers)).lexically_normal();
+  auto servers = cohort::servers_of(plan_);
+  if (!servers) return pass_on(servers);
+  options_.servers = std::move(*servers);
+  return {};
+}
+
 Status PlanCommand::find() {
-  auto found = cohort::find_cases(arguments_.source, arguments_.find, console_.progress());
+  options_ = arguments_.find;
+  if (arguments_.source.starts_with(cohort::kPacsSource)) TIDEMARK_TRY(read_servers());
+  auto found = cohort::find_cases(arguments_.source, options_, console_.progress());
   if (!found) return pass_on(found);
+  const auto is_on_server = [](const cohort::WorkRow& row) { return !row.server.empty(); };
+  const bool names_servers = std::any_of(found->list.rows.begin(), found->list.rows.end(), is_on_server);
+  if (names_servers && plan_.servers_file.empty()) TIDEMARK_TRY(read_servers());
   if (found->source == "cohort" && arguments_.rejected.empty()) {
     return fail(ErrorKind::usage, "{}: is a cohort: --rejected says which of its cases to plan again",
                 arguments_.source);
@@ -174,7 +214,8 @@ Status PlanCommand::check() {
   const cohort::WorkRow defaults = arguments_.defaults();
   for (cohort::WorkRow& row : found_.list.rows) row.complete(defaults);
   const cohort::SharedRecipe* recipe = plan_.recipe ? &*plan_.recipe : nullptr;
-  const std::vector<bool> good = cohort::check_cases(found_, arguments_.source, recipe, console_.progress());
+  const std::vector<bool> good =
+      cohort::check_cases(found_, arguments_.source, recipe, options_.servers, console_.progress());
   const std::vector<std::string>& problems = found_.list.problems;
   if (problems.empty()) return {};
   for (std::size_t i = 0; i < std::min(problems.size(), kMostSaid); ++i) console_.warn(problems[i]);
@@ -253,13 +294,30 @@ void add_find_options(CLI::App& command, PlanArguments& arguments) {
       ->group(kGroup);
 }
 
+void add_server_options(CLI::App& command, PlanArguments& arguments) {
+  const char* const kGroup = "Servers";
+  for (CLI::Option* key : add_study_keys(command, arguments.find.query.studies).all) key->group(kGroup);
+  command
+      .add_option("--series-description", arguments.find.query.series_description,
+                  "Of the series; may hold the wildcards * and ?")
+      ->type_name("TEXT")
+      ->group(kGroup);
+  command
+      .add_option("--servers", arguments.servers,
+                  "The file of servers, instead of the usual one; runs read it, too")
+      ->type_name("FILE.json")
+      ->group(kGroup);
+}
+
 }  // namespace
 
 void add_cohort_plan(CLI::App& cohort, Program& program) {
   auto arguments = std::make_shared<PlanArguments>();
   CLI::App& command = add_command(cohort, program, {"plan", kSummary, kDescription, kExamples},
                                   [&program, arguments] { return PlanCommand(program, *arguments).run(); });
-  command.add_option("SOURCE", arguments->source, "A folder, a BIDS dataset, a list (.csv) or a cohort")
+  command
+      .add_option("SOURCE", arguments->source,
+                  "A folder, a BIDS dataset, a list (.csv), a cohort or pacs:SERVER")
       ->required()
       ->type_name("");
   command.add_option("--out", arguments->out, "The folder to make the cohort in")
@@ -286,6 +344,7 @@ void add_cohort_plan(CLI::App& cohort, Program& program) {
   command.add_flag("--skip-problems", arguments->skip_problems, "Leave out the rows that have problems");
   add_row_options(command, *arguments);
   add_find_options(command, *arguments);
+  add_server_options(command, *arguments);
 }
 
 }  // namespace tidemark::cli

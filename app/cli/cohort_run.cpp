@@ -7,6 +7,7 @@
 #include "core/stopwatch.h"
 #include "core/thread_pool.h"
 #include "document/cohort/case_run.h"
+#include "document/cohort/pacs_cases.h"
 #include "document/cohort/runner.h"
 
 namespace tidemark::cli {
@@ -119,7 +120,9 @@ Status run(Program& program, const RunArguments& arguments) {
   const auto list = folder.load_work_list();
   if (!list) return pass_on(list);
 
-  cohort::CaseRun one{*plan, 1, 0, TIDEMARK_VERSION};
+  const auto servers = cohort::servers_of(*plan);
+  if (!servers) return pass_on(servers);
+  cohort::CaseRun one{*plan, 1, 0, TIDEMARK_VERSION, *servers};
   one.threads = static_cast<int>(
       arguments.threads.value_or(std::max(1, static_cast<int>(available_processors()) / options->jobs)));
   // A quarter is for the study and what is written.

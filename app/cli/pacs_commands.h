@@ -1,11 +1,13 @@
 // The commands under tidemark-cli pacs.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/cli/program.h"
-#include "imaging/pacs/configuration.h"
+#include "imaging/pacs/services.h"
 
 namespace tidemark::cli {
 
@@ -21,6 +23,15 @@ struct ServerChoice {
   [[nodiscard]] Result<Chosen> choose() const;
 };
 void add_server_choice(CLI::App& command, ServerChoice& choice);
+
+// Which file of servers counts: `chosen`, else the usual one.
+[[nodiscard]] std::filesystem::path servers_file(const std::string& chosen);
+
+// The keys of a query for studies. `of_studies` alone make no sense for the series of a study.
+struct StudyKeys {
+  std::vector<CLI::Option*> all, of_studies;
+};
+StudyKeys add_study_keys(CLI::App& command, imaging::StudyQuery& query);
 
 void add_pacs_find(CLI::App& pacs, Program& program);
 void add_pacs_get(CLI::App& pacs, Program& program);

@@ -110,25 +110,33 @@ Status run(Program& program, const FindOptions& options) {
 
 }  // namespace
 
+StudyKeys add_study_keys(CLI::App& command, imaging::StudyQuery& query) {
+  const auto add = [&](const char* name, std::string& value, const char* type, const char* description) {
+    return command.add_option(name, value, description)->type_name(type);
+  };
+  StudyKeys keys;
+  keys.of_studies = {
+      add("--patient-name", query.patient_name, "TEXT", "As DICOM writes it: Family^Given"),
+      add("--patient-id", query.patient_id, "TEXT", "The patient's number"),
+      add("--from", query.date_from, "DATE", "Studies of that day and later: 2026-07-31"),
+      add("--to", query.date_to, "DATE", "Studies of that day and earlier"),
+  };
+  keys.all = keys.of_studies;
+  keys.all.push_back(add("--modality", query.modality, "WORD", "CT, MR, ..."));
+  keys.all.push_back(add("--description", query.description, "TEXT", "Of the study"));
+  return keys;
+}
+
 void add_pacs_find(CLI::App& pacs, Program& program) {
   auto options = std::make_shared<FindOptions>();
   CLI::App& command = add_command(pacs, program, {"find", kSummary, kDescription, kExamples},
                                   [&program, options] { return run(program, *options); });
   add_server_choice(command, options->choice);
   imaging::StudyQuery& query = options->studies;
-  CLI::Option* name =
-      command.add_option("--patient-name", query.patient_name, "As DICOM writes it: Family^Given");
-  CLI::Option* id = command.add_option("--patient-id", query.patient_id, "The patient's number");
-  CLI::Option* from =
-      command.add_option("--from", query.date_from, "Studies of that day and later: 2026-07-31");
-  CLI::Option* to = command.add_option("--to", query.date_to, "Studies of that day and earlier");
-  command.add_option("--modality", query.modality, "CT, MR, ...")->type_name("WORD");
-  command.add_option("--description", query.description, "Of the study; with --study, of the series")
-      ->type_name("TEXT");
+  const StudyKeys keys = add_study_keys(command, query);
   CLI::Option* study = command.add_option("--study", options->study, "List the series of this study");
   study->type_name("UID");
-  for (CLI::Option* option : {name, id}) option->type_name("TEXT")->excludes(study);
-  for (CLI::Option* option : {from, to}) option->type_name("DATE")->excludes(study);
+  for (CLI::Option* option : keys.of_studies) option->excludes(study);
 }
 
 }  // namespace tidemark::cli

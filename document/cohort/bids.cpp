@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "core/json/json.h"
+#include "document/cohort/find_cases.h"
 
 namespace tidemark::cohort {
 namespace {
@@ -67,13 +68,18 @@ std::string text_of(const Json& object) {
   return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+// Of the source of a cohort: a folder or file, or a server as planning names it.
+std::string url_of(const std::string& source) {
+  return source.starts_with(kPacsSource) ? source : "file://" + source;
+}
+
 Json description_of(const BidsOptions& options) {
   return {{"Name", "Tidemark masks"},
           {"BIDSVersion", kVersion},
           {"DatasetType", "derivative"},
           {"GeneratedBy", Json::array({{{"Name", "Tidemark"}, {"Version", options.program}}})},
-          {"SourceDatasets", Json::array({{{"URL", "file://" + options.source}}})},
-          {"DatasetLinks", {{"raw", "file://" + options.source}}}};
+          {"SourceDatasets", Json::array({{{"URL", url_of(options.source)}}})},
+          {"DatasetLinks", {{"raw", url_of(options.source)}}}};
 }
 
 Json sidecar_of(const CaseStatus& status, const BidsOptions& options) {

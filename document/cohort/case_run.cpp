@@ -15,11 +15,14 @@
 #include "document/checksum.h"
 #include "document/cohort/case_files.h"
 #include "document/cohort/lease.h"
+#include "document/cohort/pacs_cases.h"
 #include "document/evolution.h"
 #include "document/speed_map.h"
+#include "imaging/archive/private_folder.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/filters/filters.h"
 #include "imaging/filters/suggest_start.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/load_study.h"
 #include "imaging/results/results.h"
 
@@ -36,9 +39,13 @@ class Case {
 
   Status compute();
   [[nodiscard]] CaseStatus& status() { return status_; }
+  // After a failure: it is that of a server which answers nobody.
+  [[nodiscard]] bool is_server_away() const { return is_server_away_; }
 
  private:
   Status take_recipe();
+  Status bring();
+  Result<imaging::LoadedSeries> load_series();
   Status load();
   Status fill_in();
   Status suggest();
@@ -54,6 +61,8 @@ class Case {
   fs::path folder_;
   Progress progress_;
   CaseStatus status_;
+  bool is_server_away_ = false;
+  std::optional<imaging::PrivateFolder> brought_;  // results refer to its files
   std::optional<SharedRecipe> own_recipe_;
   const SharedRecipe* shared_ = nullptr;  // null: none
   imaging::Series series_;
@@ -85,8 +94,30 @@ Status Case::take_recipe() {
   return {};
 }
 
+Status Case::bring() {
+  auto folder = imaging::PrivateFolder::create();
+  if (!folder) return pass_on(folder);
+  const Status brought = bring_series(run_.servers, row_, folder->path(), progress_);
+  if (!brought && brought.error().kind == ErrorKind::input) {
+    const auto server = run_.servers.server(row_.server);
+    is_server_away_ = server && !imaging::pacs_echo(*server, progress_);
+  }
+  brought_.emplace(std::move(*folder));
+  return brought;
+}
+
+Result<imaging::LoadedSeries> Case::load_series() {
+  if (row_.server.empty()) return imaging::load_with_series(row_.input, row_.series, progress_);
+  TIDEMARK_TRY(bring());
+  auto study = imaging::load_with_series(brought_->path(), row_.series, progress_);
+  if (study) return study;
+  // The folder has gone when somebody reads this.
+  return fail(study.error().kind, "{}: {}", row_.place(),
+              imaging::without_path(study.error().message, brought_->path()));
+}
+
 Status Case::load() {
-  auto study = imaging::load_with_series(row_.input, row_.series, progress_);
+  auto study = load_series();
   if (!study) return pass_on(study);
   series_ = std::move(study->series);
   status_.remarks = study->volume.changes;
@@ -167,8 +198,7 @@ Status Case::suggest() {
     hints.seed = glm::clamp(Index3(glm::round(voxel)), Index3(0), source_->geometry.size - Index3(1));
   }
   const auto found = imaging::suggest_start(*source_, hints, progress_);
-  if (!found)
-    return fail(found.error().kind, "{}: auto_start: {}", row_.input.string(), found.error().message);
+  if (!found) return fail(found.error().kind, "{}: auto_start: {}", row_.place(), found.error().message);
   if (recipe_.start.empty()) {
     recipe_.start.seeds.push_back({source_->geometry.to_patient(glm::dvec3(found->voxel)), found->radius_mm});
   }
@@ -244,7 +274,9 @@ Result<CaseStatus> run_case(const CaseRun& run, const WorkRow& row, const fs::pa
   CaseStatus& status = one.status();
   if (!computed) {
     const Error& error = computed.error();
-    if (error.kind == ErrorKind::write || error.kind == ErrorKind::cancelled) return tl::unexpected(error);
+    const bool is_no_fault_of_it =
+        error.kind == ErrorKind::write || error.kind == ErrorKind::cancelled || one.is_server_away();
+    if (is_no_fault_of_it) return tl::unexpected(error);
     status.outcome = outcome_of(error.kind);
     status.reason = error.message;
     status.figures.reset();
@@ -254,7 +286,7 @@ Result<CaseStatus> run_case(const CaseRun& run, const WorkRow& row, const fs::pa
     status.outcome = CaseOutcome::done;
   }
   status.id = row.id;
-  status.input = row.input.string();
+  status.input = row.place();
   status.series = row.series;
   status.program = run.program;
   status.machine = this_machine();

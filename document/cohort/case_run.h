@@ -7,19 +7,22 @@
 #include "core/progress.h"
 #include "document/cohort/case_status.h"
 #include "document/cohort/cohort_folder.h"
+#include "imaging/pacs/configuration.h"
 
 namespace tidemark::cohort {
 
 struct CaseRun {
   const CohortPlan& plan;
   int threads = 1;
-  std::int64_t memory_bytes = 0;  // that the solver may take; 0: as it sees fit
-  std::string program;            // version
+  std::int64_t memory_bytes = 0;            // that the solver may take; 0: as it sees fit
+  std::string program;                      // version
+  imaging::PacsConfiguration servers = {};  // that cases are on
 };
 
 // Computes a case by the host executor, as `segment --executor host` does, to the last bit, and writes all
-// but the status into the folder. What goes wrong with the case is in the status. Fails (ErrorKind::write)
-// where a file cannot be written, which is no case's fault, and with ErrorKind::cancelled.
+// but the status into the folder. What goes wrong with the case is in the status. Fails where it is no case's
+// fault: a file cannot be written (ErrorKind::write), the server that has the study answers nobody
+// (ErrorKind::input); and with ErrorKind::cancelled.
 Result<CaseStatus> run_case(const CaseRun& run, const WorkRow& row, const std::filesystem::path& folder,
                             const Progress& progress = {});
 

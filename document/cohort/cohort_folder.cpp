@@ -21,9 +21,11 @@ Json to_json(const CohortPlan& plan) {
   Json outputs = Json::array();
   for (const CaseOutput output : plan.outputs)
     outputs.push_back(output_names()[static_cast<std::size_t>(output)]);
-  return {{"format", kFormat},       {"version", kPlanVersion},   {"recipe_checksum", plan.recipe_checksum},
-          {"outputs", outputs},      {"pictures", plan.pictures}, {"source", plan.source},
-          {"program", plan.program}, {"planned", plan.planned}};
+  Json json{{"format", kFormat},       {"version", kPlanVersion},   {"recipe_checksum", plan.recipe_checksum},
+            {"outputs", outputs},      {"pictures", plan.pictures}, {"source", plan.source},
+            {"program", plan.program}, {"planned", plan.planned}};
+  if (!plan.servers_file.empty()) json["servers"] = plan.servers_file.string();
+  return json;
 }
 
 Result<CohortPlan> read_plan(std::string_view text, const std::string& file) {
@@ -43,6 +45,7 @@ Result<CohortPlan> read_plan(std::string_view text, const std::string& file) {
   plan.source = root.at("source").text();
   plan.program = root.at("program").text();
   plan.planned = root.at("planned").text();
+  if (root.has("servers")) plan.servers_file = root.at("servers").text();
   if (!root.good()) return tl::unexpected(root.status().error());
   return plan;
 }

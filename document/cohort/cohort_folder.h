@@ -21,8 +21,9 @@ struct CohortPlan {
   std::optional<SharedRecipe> recipe = {};  // of it
   std::vector<CaseOutput> outputs;
   bool pictures = true;
-  std::string source;            // that was planned: a folder, BIDS, a list
-  std::string program, planned;  // version; UTC
+  std::string source;                       // that was planned: a folder, BIDS, a list, "pacs:SERVER"
+  std::string program, planned;             // version; UTC
+  std::filesystem::path servers_file = {};  // of the servers that cases are on; empty: they are on none
 };
 
 // Paths alone; nothing need be there.

@@ -47,7 +47,7 @@ Status keep_automatic(const CohortFolder& folder, const CaseStatus& before, cons
 CaseStatus status_after(const std::optional<CaseStatus>& before, const WorkRow& row) {
   CaseStatus status = before.value_or(CaseStatus());
   status.id = row.id;
-  status.input = row.input.string();
+  status.input = row.place();
   status.series = row.series;
   status.outcome = CaseOutcome::done;
   status.corrected = true;

@@ -116,7 +116,7 @@ Result<FoundCases> find_in_folder(const fs::path& folder, const FindOptions& opt
                                   const Progress& progress) {
   const auto catalogue = imaging::find_series(folder, progress);
   if (!catalogue) return pass_on(catalogue);
-  FoundCases found{"folder", {}, {}, {}};
+  FoundCases found{"folder", {}, {}, {}, {}};
   Collector collector(folder, options);
   const auto meant = imaging::meant_series(*catalogue, {});
   for (const imaging::Series* series : meant) {
@@ -138,7 +138,7 @@ Result<FoundCases> find_in_folder(const fs::path& folder, const FindOptions& opt
 
 // BIDS: sub-LABEL/[ses-LABEL/]anat/*.nii.gz; what follows from the images lies in derivatives/.
 Result<FoundCases> find_in_bids(const fs::path& root, const FindOptions& options, const Progress& progress) {
-  FoundCases found{"bids", {}, {}, {}};
+  FoundCases found{"bids", {}, {}, {}, {}};
   Collector collector(root, options);
   std::error_code error;
   const auto each = [&](const fs::path& folder, std::string_view prefix, const auto& visit) {
@@ -165,14 +165,36 @@ Result<FoundCases> find_in_bids(const fs::path& root, const FindOptions& options
 Result<FoundCases> find_in_list(const fs::path& file, const char* source) {
   auto list = WorkList::load(file);
   if (!list) return pass_on(list);
-  return FoundCases{source, std::move(*list), {}, {}};
+  return FoundCases{source, {}, std::move(*list), {}, {}};
+}
+
+Result<FoundCases> find_on_server(const std::string& name, const FindOptions& options,
+                                  const Progress& progress) {
+  const auto server = options.servers.server(name);
+  if (!server) return pass_on(server);
+  auto list = find_in_pacs(*server, options.query, options.servers.limits, progress);
+  if (!list) return pass_on(list);
+  return FoundCases{"pacs", {}, std::move(*list), {}, {}};
+}
+
+Result<FoundCases> find_on_disk(const fs::path& path, const FindOptions& options, const Progress& progress) {
+  std::error_code ignored;
+  const fs::path whole = fs::absolute(path, ignored).lexically_normal();
+  const fs::path root = whole.has_filename() ? whole : whole.parent_path();
+  auto found = has_suffix(root, ".csv")          ? find_in_list(root, "list")
+               : CohortFolder(root).is_planned() ? find_in_list(CohortFolder(root).work_list(), "cohort")
+               : is_there(root / "dataset_description.json") ? find_in_bids(root, options, progress)
+                                                             : find_in_folder(root, options, progress);
+  if (found) found->place = whole.string();
+  return found;
 }
 
 // Reads each volume's header once, whoever has it as an input.
 class RowChecker {
  public:
-  RowChecker(const SharedRecipe* recipe, const std::map<std::string, Geometry>& grids)
-      : recipe_(recipe), grids_(grids) {}
+  RowChecker(const SharedRecipe* recipe, const std::map<std::string, Geometry>& grids,
+             const imaging::PacsConfiguration& servers)
+      : recipe_(recipe), grids_(grids), servers_(servers) {}
 
   // Recipes of rows are read once, before any row is checked.
   void add_recipe_of(const WorkRow& row) {
@@ -190,10 +212,14 @@ class RowChecker {
         problems.push_back(fmt::format("{}: {}: no such file or folder", name, file.string()));
       }
     }
+    if (!row.server.empty()) {
+      std::string problem = problem_with_server(row, servers_);
+      if (!problem.empty()) problems.push_back(std::move(problem));
+    }
     const SharedRecipe* recipe = recipe_of(row, problems);
     const auto missing = missing_in(row, recipe);
     problems.insert(problems.end(), missing.begin(), missing.end());
-    if (problems.empty()) check_header(row, recipe, problems);
+    if (problems.empty() && row.server.empty()) check_header(row, recipe, problems);
     return problems;
   }
 
@@ -245,33 +271,31 @@ class RowChecker {
 
   const SharedRecipe* recipe_;
   const std::map<std::string, Geometry>& grids_;
+  const imaging::PacsConfiguration& servers_;
   std::unordered_map<std::string, Result<SharedRecipe>> own_;
 };
 
 }  // namespace
 
-Result<FoundCases> find_cases(const fs::path& path, const FindOptions& options, const Progress& progress) {
-  std::error_code ignored;
-  const fs::path whole = fs::absolute(path, ignored).lexically_normal();
-  const fs::path root = whole.has_filename() ? whole : whole.parent_path();
-  Result<FoundCases> found =
-      has_suffix(root, ".csv")                      ? find_in_list(root, "list")
-      : CohortFolder(root).is_planned()             ? find_in_list(CohortFolder(root).work_list(), "cohort")
-      : is_there(root / "dataset_description.json") ? find_in_bids(root, options, progress)
-                                                    : find_in_folder(root, options, progress);
+Result<FoundCases> find_cases(const std::string& source, const FindOptions& options,
+                              const Progress& progress) {
+  const bool is_server = source.starts_with(kPacsSource);
+  auto found = is_server ? find_on_server(source.substr(kPacsSource.size()), options, progress)
+                         : find_on_disk(source, options, progress);
   if (!found) return found;
   if (progress.cancelled()) return cancelled_error();
-  if (found->list.rows.empty()) return fail(ErrorKind::input, "{}: holds no case", path.string());
+  if (is_server) found->place = source;
+  if (found->list.rows.empty()) return fail(ErrorKind::input, "{}: holds no case", source);
   if (found->list.rows.size() > kMostCases) {
-    return fail(ErrorKind::input, "{}: more than {} cases", path.string(), kMostCases);
+    return fail(ErrorKind::input, "{}: more than {} cases", source, kMostCases);
   }
   return found;
 }
 
 std::vector<bool> check_cases(FoundCases& found, const std::string& file, const SharedRecipe* recipe,
-                              const Progress& progress) {
+                              const imaging::PacsConfiguration& servers, const Progress& progress) {
   WorkList& list = found.list;
-  RowChecker checker(recipe, found.grids);
+  RowChecker checker(recipe, found.grids, servers);
   for (const WorkRow& row : list.rows) checker.add_recipe_of(row);
   const auto count = static_cast<std::int64_t>(list.rows.size());
   std::vector<std::vector<std::string>> problems(list.rows.size());

@@ -261,7 +261,7 @@ Status Runner::write_status_for(Job& job, const WorkEnd& end) {
                   : end.killed  ? "ended by the system (signal 9), which does so when memory is short"
                                 : end.error.message;
   status.id = job.row.id;
-  status.input = job.row.input.string();
+  status.input = job.row.place();
   status.series = job.row.series;
   status.attempt = job.attempt;
   status.program = options_.program;
@@ -283,9 +283,10 @@ Status Runner::collect(Job& job) {
   if (job.worker->is_fit() && !job.timed_out) idle_.push_back(std::move(*job.worker));
   job.worker.reset();
   if (!end.good) {
-    if (!job.timed_out && (end.error.kind == ErrorKind::write || end.error.kind == ErrorKind::cancelled)) {
-      return tl::unexpected(end.error);
-    }
+    const ErrorKind kind = end.error.kind;
+    const bool is_no_fault_of_it =
+        kind == ErrorKind::write || kind == ErrorKind::input || kind == ErrorKind::cancelled;
+    if (!job.timed_out && is_no_fault_of_it) return tl::unexpected(end.error);
     TIDEMARK_TRY(write_status_for(job, end));
   } else {
     const auto status = CaseStatus::load(job.staging.path() / "status.json");

@@ -148,6 +148,8 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> kColumns{
       text_column("id", &WorkRow::id),
       path_column("input", &WorkRow::input),
+      text_column("server", &WorkRow::server),
+      text_column("study", &WorkRow::study),
       text_column("series", &WorkRow::series),
       path_column("recipe", &WorkRow::recipe),
       path_column("mask", &WorkRow::mask),
@@ -185,9 +187,11 @@ Result<std::vector<const Column*>> columns_of(const CsvTable& table, const std::
     }
     found.push_back(&*column);
   }
-  const auto is_input = [](const Column* column) { return std::string_view(column->name) == "input"; };
-  if (std::none_of(found.begin(), found.end(), is_input)) {
-    return fail(ErrorKind::input, "{}: line 1: a column 'input' is needed", file);
+  const auto says_where = [](const Column* column) {
+    return std::string_view(column->name) == "input" || std::string_view(column->name) == "server";
+  };
+  if (std::none_of(found.begin(), found.end(), says_where)) {
+    return fail(ErrorKind::input, "{}: line 1: a column 'input' or 'server' is needed", file);
   }
   return found;
 }
@@ -219,6 +223,10 @@ std::string safe_id(std::string_view text) {
   return id.empty() ? "_" : id;
 }
 
+std::string WorkRow::place() const {
+  return server.empty() ? input.string() : fmt::format("pacs:{}/{}", server, study);
+}
+
 void WorkRow::complete(const WorkRow& defaults) {
   const auto take = [](auto& own, const auto& other) {
     if (!own) own = other;
@@ -247,7 +255,12 @@ std::vector<std::string> problems_of(const WorkRow& row) {
   unless(is_safe_id(row.id), "id '" + row.id +
                                  "': must be 1 to 100 letters, digits, '.', '_' and '-', not beginning with "
                                  "'.' or '-'");
-  unless(!row.input.empty(), "input: is missing");
+  const bool has_server = !row.server.empty();
+  unless(!row.input.empty() || has_server, "input: is missing");
+  unless(row.input.empty() || !has_server, "input, server: a study is in one of them");
+  unless(has_server || row.study.empty(), "study: needs a server");
+  unless(!has_server || (!row.study.empty() && !row.series.empty()),
+         "study, series: both are needed where a server has them");
   const int starts = int{!row.mask.empty()} + int{row.threshold.has_value()};
   unless(starts < 2, "mask, threshold: a case starts from one of them");
   unless(!row.within_mm || *row.within_mm > 0.0, "within_mm: must be greater than 0");
@@ -287,7 +300,7 @@ Result<WorkList> WorkList::parse(std::string_view text, const std::string& file,
          {&WorkRow::input, &WorkRow::recipe, &WorkRow::mask, &WorkRow::speed_map, &WorkRow::truth}) {
       row.*member = whole_path(row.*member, folder);
     }
-    if (row.id.empty() && !row.input.empty()) row.id = name_of(row.input);
+    if (row.id.empty()) row.id = row.input.empty() ? safe_id(row.series) : name_of(row.input);
     for (const std::string& problem : problems_of(row)) complain(problem);
     list.rows.push_back(std::move(row));
   }

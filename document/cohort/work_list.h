@@ -22,8 +22,10 @@ struct Seed {
 
 // A case. What is not set comes from its recipe.
 struct WorkRow {
-  std::string id;  // a safe name of a folder
-  std::filesystem::path input;
+  std::string id;                // a safe name of a folder
+  std::filesystem::path input;   // a file or a folder; empty: a server has the study
+  std::string server;            // a PACS, by its name in the plan's file of servers; empty: none
+  std::string study;             // UID, on the server
   std::string series;            // UID; empty: the only one, or the largest
   std::filesystem::path recipe;  // of its own; empty: the cohort's
   std::filesystem::path mask;    // to start from; empty: none
@@ -42,6 +44,8 @@ struct WorkRow {
   [[nodiscard]] bool has_start() const {
     return !mask.empty() || !seeds.empty() || !seeds_mm.empty() || threshold;
   }
+  // Where the study is, for people: the input, or "pacs:SERVER/STUDY".
+  [[nodiscard]] std::string place() const;
   // What it lacks is that of `defaults`; a start as a whole.
   void complete(const WorkRow& defaults);
   bool operator==(const WorkRow&) const = default;
@@ -58,9 +62,9 @@ struct WorkList {
   std::vector<WorkRow> rows;
   std::vector<std::string> problems;  // each names file, line and column
 
-  // A table whose first line names its columns, of which `input` is needed. Relative paths are below
-  // `folder`. A row without an id has the name of its input. Fails (ErrorKind::input) where it is no table,
-  // or a column has no meaning. What is wrong in rows is a problem each.
+  // A table whose first line names its columns, of which `input` or `server` is needed. Relative paths are
+  // below `folder`. A row without an id has the name of its input. Fails (ErrorKind::input) where it is no
+  // table, or a column has no meaning. What is wrong in rows is a problem each.
   static Result<WorkList> parse(std::string_view text, const std::string& file,
                                 const std::filesystem::path& folder);
   static Result<WorkList> load(const std::filesystem::path& file);

@@ -173,6 +173,11 @@ Result<Found<Entry>> collect(const PacsServer& server, Question& question, const
 
 }  // namespace
 
+bool is_uid(const std::string& text) {
+  return !text.empty() && text.size() <= 64 &&
+         std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+}
+
 Result<Found<PacsStudy>> find_studies(const PacsServer& server, const StudyQuery& query,
                                       const PacsLimits& limits, const Progress& progress) {
   return without_exceptions([&]() -> Result<Found<PacsStudy>> {

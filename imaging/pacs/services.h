@@ -17,6 +17,9 @@
 
 namespace tidemark::imaging {
 
+// Digits and dots, at most 64 (DICOM PS3.5 9.1).
+[[nodiscard]] bool is_uid(const std::string& text);
+
 // Whether the server is there and knows us (C-ECHO). Returns the seconds that its answer took.
 Result<double> pacs_echo(const PacsServer& server, const Progress& progress = {});
 
@@ -29,6 +32,8 @@ struct StudyQuery {
   std::string date_to;
   std::string modality;  // of a series in the study: "CT", "MR"
   std::string description;
+
+  bool operator==(const StudyQuery&) const = default;
 };
 struct PacsStudy {
   std::string uid;

@@ -73,9 +73,4 @@ std::vector<Proposal> storage_proposals() {
   return proposals;
 }
 
-bool is_uid(const std::string& text) {
-  return !text.empty() && text.size() <= 64 &&
-         std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
-}
-
 }  // namespace tidemark::imaging

@@ -18,7 +18,4 @@ namespace tidemark::imaging {
 // send its objects unchanged.
 [[nodiscard]] std::vector<Proposal> storage_proposals();
 
-// Digits and dots, at most 64 (DICOM PS3.5 9.1).
-[[nodiscard]] bool is_uid(const std::string& text);
-
 }  // namespace tidemark::imaging

@@ -35,7 +35,7 @@ class SettingsTest : public QObject {
   void the_sites_value_comes_before_the_programs_and_behind_the_users() {
     site("[General]\ntheme=dark\n[pacs]\nfolder=/srv/studies\n");
     QCOMPARE(ui::settings::theme().get(), ui::Theme::dark);
-    QCOMPARE(ui::settings::retrieval_folder("here").get(), QStringLiteral("/srv/studies"));
+    QCOMPARE(ui::settings::retrieval_folder().get(), QStringLiteral("/srv/studies"));
     ui::settings::theme().set(ui::Theme::light);
     QCOMPARE(ui::settings::theme().get(), ui::Theme::light);
     QCOMPARE(ui::origin_of("theme"), ui::SettingOrigin::user);
@@ -50,7 +50,7 @@ class SettingsTest : public QObject {
     QCOMPARE(ui::settings::theme().get(), ui::Theme::dark);
     ui::settings::theme().set(ui::Theme::light);
     QCOMPARE(ui::settings::theme().get(), ui::Theme::dark);
-    QCOMPARE(ui::settings::retrieval_folder({}).get(), QStringLiteral("/srv"));
+    QCOMPARE(ui::settings::retrieval_folder().get(), QStringLiteral("/srv"));
     // The site says that it is locked, but not to what.
     QVERIFY(!ui::is_locked("pacs/server"));
     ui::settings::server().set("archive");

@@ -2,12 +2,14 @@
 
 #include <system_error>
 
+#include "document/cohort/pacs_cases.h"
 #include "document/evolution.h"
 #include "document/replay.h"
 #include "document/speed_map.h"
 #include "document/truth.h"
 #include "engine/job_runner.h"
 #include "solver/inside_region.h"
+#include "ui/settings.h"
 
 namespace tidemark::ui {
 namespace {
@@ -35,12 +37,24 @@ Status give_map(document::Recipe& recipe, const std::filesystem::path& file, con
   return {};
 }
 
+// The folder with the series of a row on a server. It came whole, once, and is the same for each cohort.
+Result<std::filesystem::path> brought(const cohort::WorkRow& row, const std::filesystem::path& servers_file,
+                                      const std::filesystem::path& folder, const Progress& progress) {
+  std::error_code error;
+  if (!std::filesystem::is_empty(folder, error) && !error) return folder;
+  const auto servers = imaging::read_pacs_configuration(servers_file);
+  if (!servers) return pass_on(servers);
+  std::filesystem::create_directories(folder.parent_path(), error);
+  TIDEMARK_TRY(cohort::bring_series(*servers, row, folder, progress));
+  return folder;
+}
+
 // A surface that is another one than the cohort has must not be taken for it.
 Result<Contents> result_of(document::Recipe recipe, const engine::LoadedStudy& study,
                            const cohort::ReviewEntry& entry, const Progress& progress) {
   const cohort::WorkRow& row = entry.row;
   const auto differences = document::differences(recipe, *study.volume);
-  if (!differences.empty()) return fail(ErrorKind::input, "{}: {}", row.input.string(), differences.front());
+  if (!differences.empty()) return fail(ErrorKind::input, "{}: {}", row.place(), differences.front());
   TIDEMARK_TRY(give_map(recipe, row.speed_map, study.volume->geometry, progress));
   auto contents = document::replay(std::move(recipe), study.volume, study.origin, progress);
   if (!contents) return pass_on(contents);
@@ -76,9 +90,11 @@ CaseOpener::CaseOpener() : work_(std::make_unique<Work>()) {
 
 CaseOpener::~CaseOpener() = default;
 
-void CaseOpener::open(const cohort::CohortFolder& folder, const cohort::ReviewEntry& entry) {
+void CaseOpener::open(const cohort::CohortFolder& folder, const cohort::CohortPlan& plan,
+                      const cohort::ReviewEntry& entry) {
   cancel();
   entry_ = entry;
+  servers_file_ = plan.servers_file;
   recipe_ = nullptr;
   if (!entry.status || entry.status->outcome != cohort::CaseOutcome::done) return load({});
   work_->run([file = folder.case_recipe(entry_.row.id)](const Progress&) { return recipe_of(file); },
@@ -94,7 +110,17 @@ void CaseOpener::cancel() {
 }
 
 void CaseOpener::load(const imaging::GridPolicy& policy) {
+  if (!entry_.row.server.empty()) return bring(policy);
   loader_.load(entry_.row.input, entry_.row.series, policy);
+}
+
+void CaseOpener::bring(const imaging::GridPolicy& policy) {
+  const std::filesystem::path kept = settings::retrieval_folder().get().toStdString();
+  work_->run([row = entry_.row, file = servers_file_, folder = kept / entry_.row.series](
+                 const Progress& progress) { return brought(row, file, folder, progress); },
+             [this, policy](const std::filesystem::path& folder) {
+               loader_.load(folder, entry_.row.series, policy);
+             });
 }
 
 void CaseOpener::replay(const std::shared_ptr<const engine::LoadedStudy>& study) {

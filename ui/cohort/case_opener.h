@@ -17,7 +17,9 @@ class CaseOpener : public QObject {
   CaseOpener();
   ~CaseOpener() override;
 
-  void open(const cohort::CohortFolder& folder, const cohort::ReviewEntry& entry);
+  // A study that a server has comes into the folder of retrieved series, and stays there.
+  void open(const cohort::CohortFolder& folder, const cohort::CohortPlan& plan,
+            const cohort::ReviewEntry& entry);
   void cancel();
 
  signals:
@@ -31,11 +33,13 @@ class CaseOpener : public QObject {
   class Work;
 
   void load(const imaging::GridPolicy& policy);
+  void bring(const imaging::GridPolicy& policy);
   void replay(const std::shared_ptr<const engine::LoadedStudy>& study);
 
   engine::StudyLoader loader_;
   std::unique_ptr<Work> work_;
   cohort::ReviewEntry entry_;
+  std::filesystem::path servers_file_;
   std::shared_ptr<const document::Recipe> recipe_;  // null: no result
 };
 

@@ -54,7 +54,7 @@ QVariant CohortModel::data(const QModelIndex& index, int role) const {
     case Qt::DisplayRole:
       return text_of(at(index.row()));
     case Qt::ToolTipRole:
-      return QString::fromStdString(at(index.row()).row.input.string());
+      return QString::fromStdString(at(index.row()).row.place());
     case Qt::DecorationRole:
       return pictures_->picture(picture_file(at(index.row()).row.id));
     default:

@@ -275,7 +275,7 @@ void CohortReview::load(int row) {
   opening_ = row;
   panel_->choose(row);
   panel_->work().begin(tr("Opening %1").arg(QString::fromStdString(model_->at(row).row.id)));
-  opener_->open(folder_of(path_), model_->at(row));
+  opener_->open(folder_of(path_), *plan_, model_->at(row));
   follow_case();
 }
 

@@ -18,14 +18,6 @@
 #include "ui/widgets/work_line.h"
 
 namespace tidemark::ui {
-namespace {
-
-QString usual_folder() {
-  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-  return settings::retrieval_folder(documents + "/Tidemark").get();
-}
-
-}  // namespace
 
 QueryDialog::QueryDialog(std::filesystem::path servers, QWidget* parent)
     : QDialog(parent),
@@ -124,7 +116,7 @@ QWidget* QueryDialog::make_bottom() {
   label->setBuddy(folder_);
   folder_->setAccessibleName(tr("Folder for what comes"));
   folder_->setToolTip(tr("Each series that is opened gets a folder of its own in this one"));
-  folder_->setText(usual_folder());
+  folder_->setText(settings::retrieval_folder().get());
   auto* choose = new QPushButton(icon(u"open-folder"), tr("&Choose…"), bottom);
   choose->setAutoDefault(false);
   choose->setToolTip(tr("Choose the folder"));
@@ -168,7 +160,7 @@ void QueryDialog::search(const imaging::StudyQuery& query) {
 void QueryDialog::retrieve() {
   const auto chosen = tree_->chosen();
   if (!chosen || servers_->server() == nullptr || client_.busy()) return;
-  settings::retrieval_folder({}).set(folder_->text());
+  settings::retrieval_folder().set(folder_->text());
   // Named by the time, not by anything that says whose it is.
   const QString name = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd hh-mm-ss-zzz"));
   const imaging::RetrieveRequest request{chosen->study_uid.toStdString(), chosen->series_uid.toStdString(),
