@@ -92,8 +92,11 @@ Status CaseFiles::measure() {
 }
 
 Status CaseFiles::write_picture() {
-  const CasePicture picture = case_picture(result_.source, mask_, picture_side(result_.source.geometry));
-  return imaging::write_png_file(picture.width, picture.height, picture.pixels, folder_ / "overview.png");
+  const auto picture =
+      case_picture(result_.source, result_.phi, picture_side(result_.source.geometry), result_.threads);
+  if (!picture) return pass_on(picture);
+  return imaging::write_png_file(picture->width, picture->height, picture->pixels, folder_ / "overview.png",
+                                 imaging::PngEffort::quick);
 }
 
 // A start that is too large for a file is no reason to lose the case.

@@ -20,6 +20,7 @@ struct CaseResult {
   const solver::SurfaceStatistics& surface;  // of phi
   const document::Recipe& recipe;
   std::vector<std::filesystem::path> dicom_files;  // that DICOM results refer to; empty: not DICOM
+  int threads = 1;                                 // for the picture
 };
 
 // Measures the rest of the result and writes mask, recipe, picture and what else the plan wants into the

@@ -1,23 +1,16 @@
-// The picture of a case for its review: three slices through the middle of the result, with its outline.
+// The picture of a case for its review: three slices through the middle of the result, and its surface.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "core/volume.h"
+#include "renderer/picture.h"
+#include "solver/field.h"
 
 namespace tidemark::cohort {
 
-// Red, green, blue and opacity (255), rows from the top.
-struct CasePicture {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> pixels;
-};
-
-// One square each across k, j and i beside each other, `side` pixels high, in the file's window or over the
-// values that are common. Rows and columns run as the patient's right, front and head do: to the left and
-// above. The slices go through the middle of the inside, and show the volume as a whole.
-[[nodiscard]] CasePicture case_picture(const Volume& source, const Mask& mask, int side);
+// An axial, a coronal and a sagittal slice with the outline, and the whole surface from in front and a little
+// from the left and above: squares beside each other, `side` pixels high. Drawn by the processor, with the
+// same pixels for any number of threads. Fails as HostRenderer::create() does.
+[[nodiscard]] Result<renderer::Picture> case_picture(const Volume& source, const solver::Field& phi,
+                                                     std::int64_t side, int threads);
 
 }  // namespace tidemark::cohort

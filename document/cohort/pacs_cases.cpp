@@ -35,18 +35,20 @@ Result<WorkList> find_in_pacs(const PacsServer& server, const PacsQuery& query,
                               const imaging::PacsLimits& limits, const Progress& progress) {
   const auto studies = imaging::find_studies(server, query.studies, limits, progress);
   if (!studies) return pass_on(studies);
-  const auto more = [&](const char* what) {
-    return fail(ErrorKind::input, "{}: has more than {} {}: ask for less, or raise \"answers\" in its file",
-                server.name, limits.answers, what);
+  const auto too_many = [&] {
+    return fail(
+        ErrorKind::input,
+        "{}: has more than {} studies or series like that: ask for less, or raise \"answers\" in its file",
+        server.name, limits.answers);
   };
-  if (studies->more) return more("such studies");
+  if (studies->more) return too_many();
   WorkList list;
   for (std::size_t i = 0; i < studies->entries.size(); ++i) {
     const std::string& study = studies->entries[i].uid;
     const auto series = imaging::find_pacs_series(
         server, {study, query.studies.modality, query.series_description}, limits, progress);
     if (!series) return pass_on(series);
-    if (series->more) return more("series in a study");
+    if (series->more) return too_many();
     for (const imaging::PacsSeries& one : series->entries) {
       WorkRow row;
       row.id = safe_id(one.uid);

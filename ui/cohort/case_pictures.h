@@ -19,8 +19,8 @@ namespace tidemark::ui {
 class CasePictures : public QObject {
   Q_OBJECT
  public:
-  static constexpr int kWidth = 132;  // logical pixels
-  static constexpr int kHeight = 44;
+  static constexpr int kWidth = 160;  // logical pixels, as case_picture() makes them
+  static constexpr int kHeight = 40;
 
   CasePictures();
   ~CasePictures() override;
