@@ -155,7 +155,7 @@ void CohortSlurmTest::tasks_that_are_ended_in_all_ways_cost_no_case() {
   const auto half_way = names_in(out / "cases").size();
   QVERIFY2(half_way < kBalls, "the tasks were not ended half-way");
   QCOMPARE(slurm_->wait_until_empty(), QString());
-  QCOMPARE(slurm_->must_run("sinfo --noheader --nodes=node-b --format=%T"), QByteArray("drained\n"));
+  QTRY_COMPARE(slurm_->must_run("sinfo --noheader --nodes=node-b --format=%T"), QByteArray("drained\n"));
 
   // What each task says shows how it has ended.
   const auto log = [&](const QString& task) {
