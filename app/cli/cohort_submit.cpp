@@ -35,6 +35,13 @@ std::string quoted(const std::string& text) {
   return word + "'";
 }
 
+// The folder of logs: Slurm replaces %j and the like in their names.
+std::string log_name(const std::filesystem::path& folder) {
+  std::string name;
+  for (const char c : folder.string()) name += c == '%' ? "%%" : std::string(1, c);
+  return name + "/slurm-%A_%a.log";
+}
+
 // Words that Slurm reads and no shell does: what is allowed is listed.
 Status check_word(const char* option, const std::string& word) {
   const bool good = std::all_of(word.begin(), word.end(), [](unsigned char c) {
@@ -76,8 +83,9 @@ std::string script_of(const SubmitArguments& arguments, const std::filesystem::p
   if (!arguments.partition.empty()) text += fmt::format("#SBATCH --partition={}\n", arguments.partition);
   // Slurm warns the task before its end, so that its cases are given back at once.
   text += "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --signal=B:TERM@30\n";
-  text +=
-      fmt::format("exec {} cohort run {} --jobs {}", quoted(program.string()), quoted(folder.string()), jobs);
+  // Not all sites confine a task to the processors that it has asked for.
+  text += fmt::format("exec {} cohort run {} --jobs {} --threads 1", quoted(program.string()),
+                      quoted(folder.string()), jobs);
   if (arguments.memory_mb) text += fmt::format(" --memory {}", *arguments.memory_mb);
   return text + "\n";
 }
@@ -92,7 +100,7 @@ Status run(Program& program, const SubmitArguments& arguments) {
   TIDEMARK_TRY(write_file(script, script_of(arguments, folder.path())));
   const std::int64_t tasks = arguments.tasks.value_or(1);
   const std::int64_t largest = arguments.largest_array.value_or(kDefaultArray);
-  const std::string log = quoted((folder.path() / "slurm-%A_%a.log").string());
+  const std::string log = quoted(log_name(folder.path()));
   Json commands = Json::array();
   console.say("Wrote      {}", script.string());
   for (std::int64_t begun = 0; begun < tasks; begun += largest) {

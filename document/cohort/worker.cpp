@@ -38,11 +38,11 @@ void limit_memory(std::int64_t memory_bytes) {
   ::setrlimit(RLIMIT_DATA, &limit);
 }
 
-// A signal ends the copy at once: what is to be cleaned up is its parent's.
+// Requests to stop reach all processes of a terminal or of a scheduler's job. The parent answers them, and
+// ends the copy: a copy that ended by itself would look like a case that fails. Other signals end it at once.
 void reset_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
-    ::signal(signal, SIG_DFL);
-  }
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
+  for (const int signal : {SIGUSR1, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) ::signal(signal, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);

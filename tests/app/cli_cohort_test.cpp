@@ -1,5 +1,6 @@
 // Cohorts on the command line, from a folder of studies to the report.
 #include <signal.h>
+#include <unistd.h>
 
 #include <QDateTime>
 #include <QFileInfo>
@@ -63,6 +64,7 @@ class CliCohortTest : public QObject {
   void a_cohort_has_the_masks_of_segment_to_the_last_bit();
   void a_broken_case_and_an_endless_one_stop_no_other();
   void a_killed_run_goes_on_where_it_was();
+  void a_terminated_run_gives_its_cases_back_data();
   void a_terminated_run_gives_its_cases_back();
   void problems_of_all_rows_are_told_at_once();
   void what_a_recipe_does_at_places_is_refused_unless_it_is_left_out();
@@ -184,14 +186,27 @@ void CliCohortTest::a_killed_run_goes_on_where_it_was() {
   QCOMPARE(count_in(out / "staging"), 0);
 }
 
+void CliCohortTest::a_terminated_run_gives_its_cases_back_data() {
+  QTest::addColumn<int>("signal");
+  QTest::addColumn<bool>("all");
+  QTest::newRow("the run alone") << SIGTERM << false;
+  QTest::newRow("a scheduler's job") << SIGTERM << true;
+  QTest::newRow("Ctrl-C") << SIGINT << true;
+}
+
+// Terminals and schedulers signal all processes of a run.
 void CliCohortTest::a_terminated_run_gives_its_cases_back() {
+  QFETCH(int, signal);
+  QFETCH(bool, all);
   const TemporaryFolder folder;
   const auto out = folder / "cohort";
   plan(out, {"--steps", "900000000"});
   QProcess process;
+  process.setChildProcessModifier([] { ::setpgid(0, 0); });
   process.start(cli_program(), {"cohort", "run", text(out), "--jobs", "2"});
   QTRY_COMPARE_WITH_TIMEOUT(count_in(out / "staging"), 2, 20000);
-  process.terminate();
+  const auto leader = static_cast<pid_t>(process.processId());
+  QCOMPARE(::kill(all ? -leader : leader, signal), 0);
   QVERIFY(process.waitForFinished());
   QCOMPARE(process.exitCode(), 130);
   QCOMPARE(count_in(out / "staging"), 0);
