@@ -1,16 +1,13 @@
 // A cohort on a real Slurm, whose tasks are drained, requeued, cancelled and killed.
 #include <signal.h>
-#include <sys/inotify.h>
-#include <unistd.h>
 
 #include <QJsonArray>
-#include <QMap>
 #include <QSet>
-#include <array>
 
 #include "imaging/files/volume_file.h"
 #include "imaging/load_study.h"
 #include "tests/app/cli_runner.h"
+#include "tests/app/folder_events.h"
 #include "tests/app/slurm_cluster.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -22,8 +19,8 @@ namespace {
 constexpr int kBalls = 200;
 constexpr int kLargestArray = 4;
 constexpr Index3 kSize{32};
-constexpr int kMostHeld =
-    17;  // cases of a run with one job: one that it computes, and those that are synced together
+// Cases of a run with one job: one that it computes, and those that are synced together.
+constexpr int kMostHeld = 17;
 // Steps keep the tasks busy for some seconds, so that there is a half-way.
 const QStringList kParameters{"--target", "1000", "--range",   "400",
                               "--alpha",  "0.6",  "--seed-mm", "15.5,15.5,15.5,3"};
@@ -33,35 +30,6 @@ const QStringList kManySteps{"--steps", "1000000"};
 QString name_of(int number) {
   return QStringLiteral("ball%1").arg(number, 3, 10, QLatin1Char('0'));
 }
-
-// The names of a folder's entries that an event was about, by how often, from now on. No event is missed.
-class Events {
- public:
-  Events(const std::filesystem::path& folder, std::uint32_t kind)
-      : notifier_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
-    if (::inotify_add_watch(notifier_, folder.c_str(), kind) < 0) qFatal("cannot watch %s", folder.c_str());
-  }
-  ~Events() { ::close(notifier_); }
-  Events(const Events&) = delete;
-  Events& operator=(const Events&) = delete;
-
-  QMap<QString, int> by_name() {
-    alignas(inotify_event) std::array<char, 1 << 16> buffer;
-    for (ssize_t got = 0; (got = ::read(notifier_, buffer.data(), buffer.size())) > 0;) {
-      for (ssize_t at = 0; at < got;) {
-        const auto* event = reinterpret_cast<const inotify_event*>(buffer.data() + at);
-        if ((event->mask & IN_Q_OVERFLOW) != 0) qFatal("too many events of a folder");
-        ++count_[QString::fromUtf8(event->name)];
-        at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
-      }
-    }
-    return count_;
-  }
-
- private:
-  int notifier_;
-  QMap<QString, int> count_;
-};
 
 int sum(const QMap<QString, int>& counts) {
   int all = 0;
@@ -129,8 +97,8 @@ void CohortSlurmTest::tasks_that_are_ended_in_all_ways_cost_no_case() {
   const auto out = folder / "it's 5%j";  // words of a shell and of Slurm
   test::must_run(QStringList{"cohort", "plan", text(studies_.path()), "--out", text(out)} + kParameters +
                  kSteps);
-  Events begun(out / "staging", IN_CREATE);
-  Events published(out / "cases", IN_MOVED_TO);
+  FolderEvents begun(out / "staging", IN_CREATE);
+  FolderEvents published(out / "cases", IN_MOVED_TO);
   submit(out, {"--tasks", "10", "--largest-array", QString::number(kLargestArray)});
   // Four tasks have a processor each. The text of a lease is its holder's own.
   QSet<QByteArray> holders;
@@ -211,7 +179,7 @@ void CohortSlurmTest::what_a_cancelled_array_has_left_is_done_when_it_is_submitt
       QStringList{"cohort", "plan", text(studies_.path()), "--match", "ball00*.nii.gz", "--out", text(out)} +
       kParameters + kManySteps);
   slurm_->must_run("scontrol update nodename=node-b state=resume");
-  Events published(out / "cases", IN_MOVED_TO);
+  FolderEvents published(out / "cases", IN_MOVED_TO);
   submit(out, {"--tasks", "2"});
   QTRY_VERIFY_WITH_TIMEOUT(!names_in(out / "cases").isEmpty(), 60'000);
   slurm_->must_run("scancel --name=tidemark-cohort");

@@ -35,6 +35,7 @@ CohortPanel::CohortPanel(CohortModel& model, const Actions& actions, QWidget* pa
   list_->setAccessibleName(tr("Cases of the cohort"));
   list_->setAccessibleDescription(tr("The most unusual first. Return opens a case."));
   list_->setUniformItemSizes(true);
+  list_->setTextElideMode(Qt::ElideMiddle);  // names that are UIDs differ at their ends
   list_->setIconSize(QSize(CasePictures::kWidth, CasePictures::kHeight));
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);

@@ -80,6 +80,8 @@ void Actions::make_files() {
                       tr("Find a series in a PACS and open it"));
   open_cohort = make("open-cohort", "open-folder", tr("&Open cohort…"), {}, false,
                      tr("Go through the cases that tidemark-cli cohort has computed"));
+  show_cohort = make("show-cohort", nullptr, tr("&Show the cohort"), {}, false,
+                     tr("Show the panel of the cohort again"));
   next_case =
       make("next-case", nullptr, tr("&Next case"), QKeySequence("N"), false, tr("Open the next case"));
   previous_case = make("previous-case", nullptr, tr("&Previous case"), QKeySequence("Shift+N"), false,

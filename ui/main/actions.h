@@ -28,6 +28,7 @@ class Actions : public QObject {
   QAction* open_session;
   QAction* query_server;
   QAction* open_cohort;
+  QAction* show_cohort;
   QAction* next_case;
   QAction* previous_case;
   QAction* accept_case;

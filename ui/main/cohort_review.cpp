@@ -18,8 +18,8 @@
 #include "ui/cohort/cohort_panel.h"
 #include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
+#include "ui/main/side_dock.h"
 #include "ui/settings.h"
-#include "ui/widgets/relative_font.h"
 #include "ui/widgets/work_line.h"
 
 namespace tidemark::ui {
@@ -27,7 +27,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kWidth = 340;  // logical pixels
 constexpr const char* kAboutCohort = "cohort";
 constexpr int kNoticeMs = 4000;
 
@@ -70,6 +69,9 @@ void CohortReview::connect_actions() {
   connect(
       actions.previous_case, &QAction::triggered, this, [this] { go(-1); }, Qt::QueuedConnection);
   connect(actions.accept_case, &QAction::triggered, this, &CohortReview::accept);
+  connect(actions.show_cohort, &QAction::triggered, this, [this] {
+    if (dock_) dock_->show();
+  });
   connect(actions.reject_case, &QAction::triggered, this, [this] {
     if (const int row = meant_row(); row >= 0) say(row, Verdict::rejected, panel_->comment());
   });
@@ -130,13 +132,7 @@ void CohortReview::show(cohort::ReviewList list, const KeptCohort& wanted) {
   connect(panel_, &CohortPanel::commented, this,
           [this](int row, const QString& comment) { say(row, model_->at(row).decision.verdict, comment); });
   connect(&panel_->work(), &WorkLine::cancelled, this, &CohortReview::give_up);
-  if (!dock_) {
-    dock_ = new QDockWidget(tr("Cohort"), &window_);
-    dock_->setObjectName("cohort");
-    let_title_follow_font(*dock_);
-    dock_->setMinimumWidth(kWidth);
-    window_.addDockWidget(Qt::LeftDockWidgetArea, dock_);
-  }
+  if (!dock_) dock_ = make_side_dock(window_, "cohort", tr("Cohort"));
   dock_->setWidget(panel_);
   dock_->show();
   if (const int row = model_->row_of(wanted.chosen); row >= 0) panel_->choose(row);
@@ -203,14 +199,17 @@ void CohortReview::follow_case() {
       row >= 0 && model_->at(row).status && model_->at(row).status->outcome == cohort::CaseOutcome::done;
   const bool corrects = row >= 0 && is_changed();
   actions.next_case->setEnabled(panel_ != nullptr);
+  actions.show_cohort->setEnabled(panel_ != nullptr);
   actions.previous_case->setEnabled(panel_ != nullptr);
   actions.accept_case->setEnabled(has_result || corrects);
   actions.reject_case->setEnabled(row >= 0);
   if (panel_) panel_->set_correction(corrects);
 }
 
+// One that is closed is there for a moment longer.
 CaseWindow* CohortReview::open_window() const {
-  return open_ ? open_->window.data() : nullptr;
+  CaseWindow* window = open_ ? open_->window.data() : nullptr;
+  return window_.cases().contains(window) ? window : nullptr;
 }
 
 int CohortReview::open_row() const {

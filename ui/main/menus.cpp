@@ -28,7 +28,7 @@ void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent)
   QObject::connect(phantoms, &PhantomMenu::chosen, &window, &MainWindow::open_phantom);
   file->addMenu(phantoms);
   QMenu* cohort = file->addMenu(MainWindow::tr("Cohor&t"));
-  cohort->addActions({actions.open_cohort, actions.next_case, actions.previous_case});
+  cohort->addActions({actions.open_cohort, actions.show_cohort, actions.next_case, actions.previous_case});
   cohort->addSeparator();
   cohort->addActions({actions.accept_case, actions.reject_case});
   file->addSeparator();

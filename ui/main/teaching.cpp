@@ -21,12 +21,11 @@
 #include "ui/main/case_head.h"
 #include "ui/main/case_window.h"
 #include "ui/main/main_window.h"
-#include "ui/widgets/relative_font.h"
+#include "ui/main/side_dock.h"
 
 namespace tidemark::ui {
 namespace {
 
-constexpr int kLessonWidth = 340;   // logical pixels
 constexpr double kLargeType = 1.5;  // of the usual font
 constexpr const char* kAboutLessons = "lesson";
 
@@ -137,13 +136,7 @@ void Teaching::show(std::unique_ptr<engine::LessonCourse> course, const std::fil
   column->setSpacing(0);
   column->addWidget(head_);
   column->addWidget(panel, 1);
-  if (!dock_) {
-    dock_ = new QDockWidget(tr("Lesson"), &window_);
-    dock_->setObjectName("lesson");
-    let_title_follow_font(*dock_);
-    dock_->setMinimumWidth(kLessonWidth);
-    window_.addDockWidget(Qt::LeftDockWidgetArea, dock_);
-  }
+  if (!dock_) dock_ = make_side_dock(window_, "lesson", tr("Lesson"));
   dock_->setWidget(content);
   dock_->show();
   show_->setEnabled(true);

@@ -206,6 +206,13 @@ void CohortStoryTest::cases_are_looked_at_and_spoken_of() {
   desktop.press(Qt::Key_N, Qt::ShiftModifier);
   QVERIFY(opens(desktop, "anna"));
   desktop.screenshot("cohort-3-said");
+
+  // A panel that was closed comes back by the menu.
+  auto* dock = desktop.window().findChild<QDockWidget*>("cohort");
+  dock->close();
+  QVERIFY(!panel(desktop)->isVisible());
+  desktop.window().actions().show_cohort->trigger();
+  QVERIFY(panel(desktop)->isVisible());
 }
 
 void CohortStoryTest::a_surface_is_corrected() {
