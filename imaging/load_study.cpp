@@ -154,6 +154,21 @@ Result<Volume> load_chosen(const Series& series, const Progress& progress) {
   return volume;
 }
 
+bool is_plain_volume_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored) && is_readable_volume_file(path) && !is_picture_file(path);
+}
+
+// The header is read once: of a small volume that is much of the time.
+Result<LoadedSeries> load_volume_file(const fs::path& file, const Progress& progress) {
+  return guarded(file, [&]() -> Result<LoadedSeries> {
+    auto read = read_volume_with_series(file, progress);
+    if (!read) return pass_on(read);
+    TIDEMARK_TRY(require_finite_range(read->volume, file.string()));
+    return LoadedSeries{std::move(read->series), std::move(read->volume)};
+  });
+}
+
 // The grid of one slice of a grid.
 Geometry geometry_of_slice(Geometry geometry, std::int64_t k) {
   geometry.origin_mm = geometry.to_patient({0.0, 0.0, static_cast<double>(k)});
@@ -316,6 +331,7 @@ Result<Volume> load_volume(const fs::path& path, const std::string& uid, const P
 
 Result<LoadedSeries> load_with_series(const fs::path& path, const std::string& uid, const Progress& progress,
                                       const GridPolicy& policy) {
+  if (uid.empty() && is_plain_volume_file(path)) return load_volume_file(path, progress);
   const auto catalogue = find_series(path, progress, policy);
   if (!catalogue) return tl::unexpected(catalogue.error());
   auto chosen = choose_series(*catalogue, uid, path);

@@ -17,33 +17,29 @@ bool is_picture_file(const std::filesystem::path& file) {
   return files::picture_format_of(file).has_value();
 }
 
-Result<Series> scan_volume_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) {
-    return fail(ErrorKind::input, "{}: no such file", file.string());
-  }
-  if (is_picture_file(file)) return files::scan_picture(file);
-  const files::ItkScope scope;
+namespace {
+
+using files::VolumeHeader;
+
+Series series_of(const std::filesystem::path& file) {
   Series series;
   series.uid = file.filename().string();
   series.description = series.uid;
   series.files = {file};
-  auto header = files::check_header(file);
-  if (!header) {
-    series.reason = std::move(header.error().message);
-    return series;
-  }
-  series.loadable = true;
-  series.geometry = header->geometry;
-  series.oriented = header->layout.oriented;
-  series.scalar = header->scalar;
-  series.changes = std::move(header->changes);
-  series.warnings = std::move(header->warnings);
   return series;
 }
 
-Result<Volume> read_volume_file(const std::filesystem::path& file, const Progress& progress) {
-  if (is_picture_file(file)) return files::read_picture(file, progress);
+void take(Series& series, const VolumeHeader& header) {
+  series.loadable = true;
+  series.geometry = header.geometry;
+  series.oriented = header.layout.oriented;
+  series.scalar = header.scalar;
+  series.changes = header.changes;
+  series.warnings = header.warnings;
+}
+
+// `series`, where it is asked for, gets what the header says.
+Result<Volume> read(const std::filesystem::path& file, Series* series, const Progress& progress) {
   const std::string name = file.string();
   const files::ItkScope scope;
   progress(0.0, "reading the volume");
@@ -53,6 +49,7 @@ Result<Volume> read_volume_file(const std::filesystem::path& file, const Progres
   auto header = files::check_header(file);
   if (!header) return pass_on(header);
   const auto stamp_of_voxels = FileStamp::of(header->layout.file);  // another file where the header says so
+  if (series != nullptr) take(*series, *header);
   progress(0.1, "reading the volume");
   if (progress.cancelled()) return cancelled_error();
 
@@ -77,6 +74,38 @@ Result<Volume> read_volume_file(const std::filesystem::path& file, const Progres
   TIDEMARK_TRY(require_finite(volume, name));
   progress(1.0, "reading the volume");
   return volume;
+}
+
+}  // namespace
+
+Result<Series> scan_volume_file(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    return fail(ErrorKind::input, "{}: no such file", file.string());
+  }
+  if (is_picture_file(file)) return files::scan_picture(file);
+  const files::ItkScope scope;
+  Series series = series_of(file);
+  const auto header = files::check_header(file);
+  if (header) {
+    take(series, *header);
+  } else {
+    series.reason = header.error().message;
+  }
+  return series;
+}
+
+Result<Volume> read_volume_file(const std::filesystem::path& file, const Progress& progress) {
+  if (is_picture_file(file)) return files::read_picture(file, progress);
+  return read(file, nullptr, progress);
+}
+
+Result<VolumeWithSeries> read_volume_with_series(const std::filesystem::path& file,
+                                                 const Progress& progress) {
+  Series series = series_of(file);
+  auto volume = read(file, &series, progress);
+  if (!volume) return pass_on(volume);
+  return VolumeWithSeries{std::move(series), std::move(*volume)};
 }
 
 }  // namespace tidemark::imaging

@@ -24,6 +24,14 @@ Result<Series> scan_volume_file(const std::filesystem::path& file);
 // along its rows, j down; colours become their luminance, and the pixels' size is that of its resolution.
 Result<Volume> read_volume_file(const std::filesystem::path& file, const Progress& progress = {});
 
+// Both of a file that is no picture, by one look at its header.
+struct VolumeWithSeries {
+  Series series;
+  Volume volume;
+};
+Result<VolumeWithSeries> read_volume_with_series(const std::filesystem::path& file,
+                                                 const Progress& progress = {});
+
 // Written through a temporary file; on failure (ErrorKind::write) the target is as it was before. Values are
 // written rescaled: as int16 or uint16 when slope and intercept are whole numbers and all fits, else float.
 Status write_volume_file(const Volume& volume, const std::filesystem::path& file);

@@ -1,4 +1,4 @@
-// What happens in a folder, counted by name. No event is missed.
+// The events of a folder, counted by name. None is missed.
 #pragma once
 
 #include <sys/inotify.h>
