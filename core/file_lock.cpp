@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 namespace tidemark {
@@ -26,6 +28,17 @@ FileLock FileLock::take(const std::filesystem::path& path, Missing missing) {
   FileLock lock;
   lock.descriptor_ = open_to_lock(path, missing == Missing::make ? O_CREAT : 0);
   if (lock && ::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0) lock = FileLock();
+  return lock;
+}
+
+FileLock FileLock::wait(const std::filesystem::path& path, Missing missing, const std::stop_token& stop) {
+  constexpr std::chrono::milliseconds kPause(50);
+  FileLock lock;
+  lock.descriptor_ = open_to_lock(path, missing == Missing::make ? O_CREAT : 0);
+  while (lock && ::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK || stop.stop_requested()) return {};
+    std::this_thread::sleep_for(kPause);
+  }
   return lock;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 
 namespace tidemark {
 
@@ -15,6 +16,8 @@ class FileLock {
   FileLock() = default;  // holds nothing
   // Holds nothing where another holder has it, `path` cannot be opened, or the file system knows no locks.
   static FileLock take(const std::filesystem::path& path, Missing missing = Missing::give_up);
+  // Waits until no other holder has it. Holds nothing on a request to stop, and where take() never would.
+  static FileLock wait(const std::filesystem::path& path, Missing missing, const std::stop_token& stop);
   // Whether another holder has it.
   [[nodiscard]] static bool is_taken(const std::filesystem::path& path);
 

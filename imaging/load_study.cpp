@@ -48,6 +48,7 @@ void leave_out_pictures(Catalogue& catalogue) {
 std::vector<std::optional<Result<Series>>> scan_volume_files(const std::vector<SkippedFile>& files,
                                                              const Progress& progress) {
   std::vector<std::optional<Result<Series>>> scanned(files.size());
+  if (files.empty()) return scanned;
   SharedProgress shared(progress, static_cast<std::int64_t>(files.size()), "reading headers");
   ThreadPool pool(reading_threads());
   const auto count = static_cast<std::int64_t>(files.size());

@@ -1,6 +1,7 @@
 // tidemark-cli cohort plan: from studies and a recipe to a work list.
 #include <memory>
 #include <set>
+#include <span>
 
 #include "app/cli/arguments.h"
 #include "app/cli/cohort_commands.h"
@@ -82,7 +83,7 @@ class PlanCommand {
   Status take_outputs();
   Status take_recipe();
   Status check_source() const;
-  Status read_servers();
+  Status read_servers(std::span<const cohort::WorkRow> rows);
   Status find();
   Status keep_rejected();
   Status check();
@@ -163,22 +164,17 @@ Status PlanCommand::check_source() const {
   return {};
 }
 
-Status PlanCommand::read_servers() {
-  plan_.servers_file = std::filesystem::absolute(servers_file(arguments_.servers)).lexically_normal();
-  auto servers = cohort::servers_of(plan_);
-  if (!servers) return pass_on(servers);
-  options_.servers = std::move(*servers);
-  return {};
-}
-
 Status PlanCommand::find() {
   options_ = arguments_.find;
-  if (arguments_.source.starts_with(cohort::kPacsSource)) TIDEMARK_TRY(read_servers());
+  if (!arguments_.servers.empty())
+    plan_.servers_file = std::filesystem::absolute(arguments_.servers).lexically_normal();
+  if (arguments_.source.starts_with(cohort::kPacsSource)) {
+    cohort::WorkRow any;
+    any.server = arguments_.source;
+    TIDEMARK_TRY(read_servers({&any, 1}));
+  }
   auto found = cohort::find_cases(arguments_.source, options_, console_.progress());
   if (!found) return pass_on(found);
-  const auto is_on_server = [](const cohort::WorkRow& row) { return !row.server.empty(); };
-  const bool names_servers = std::any_of(found->list.rows.begin(), found->list.rows.end(), is_on_server);
-  if (names_servers && plan_.servers_file.empty()) TIDEMARK_TRY(read_servers());
   if (found->source == "cohort" && arguments_.rejected.empty()) {
     return fail(ErrorKind::usage, "{}: is a cohort: --rejected says which of its cases to plan again",
                 arguments_.source);
@@ -188,6 +184,17 @@ Status PlanCommand::find() {
     console_.say("Left out   {} series that cannot be loaded (--verbose names them)", found->left_out.size());
   }
   found_ = std::move(*found);
+  if (found_.source != "cohort" || !plan_.servers_file.empty()) return {};
+  const auto earlier = cohort::CohortFolder(arguments_.source).load_plan();
+  if (!earlier) return pass_on(earlier);
+  plan_.servers_file = earlier->servers_file;
+  return {};
+}
+
+Status PlanCommand::read_servers(std::span<const cohort::WorkRow> rows) {
+  auto servers = cohort::servers_of(plan_.servers_file, rows);
+  if (!servers) return pass_on(servers);
+  options_.servers = std::move(*servers);
   return {};
 }
 
@@ -211,6 +218,10 @@ Status PlanCommand::keep_rejected() {
 }
 
 Status PlanCommand::check() {
+  TIDEMARK_TRY(read_servers(found_.list.rows));
+  if (options_.servers.servers.empty() && !arguments_.servers.empty()) {
+    return fail(ErrorKind::usage, "--servers: no case of {} is on a server", arguments_.source);
+  }
   const cohort::WorkRow defaults = arguments_.defaults();
   for (cohort::WorkRow& row : found_.list.rows) row.complete(defaults);
   const cohort::SharedRecipe* recipe = plan_.recipe ? &*plan_.recipe : nullptr;
@@ -296,7 +307,8 @@ void add_find_options(CLI::App& command, PlanArguments& arguments) {
 
 void add_server_options(CLI::App& command, PlanArguments& arguments) {
   const char* const kGroup = "Servers";
-  for (CLI::Option* key : add_study_keys(command, arguments.find.query.studies).all) key->group(kGroup);
+  for (CLI::Option* key : add_study_keys(command, arguments.find.query.studies, "Of the study").all)
+    key->group(kGroup);
   command
       .add_option("--series-description", arguments.find.query.series_description,
                   "Of the series; may hold the wildcards * and ?")

@@ -120,7 +120,7 @@ Status run(Program& program, const RunArguments& arguments) {
   const auto list = folder.load_work_list();
   if (!list) return pass_on(list);
 
-  const auto servers = cohort::servers_of(*plan);
+  const auto servers = cohort::servers_of(plan->servers_file, list->rows);
   if (!servers) return pass_on(servers);
   cohort::CaseRun one{*plan, 1, 0, TIDEMARK_VERSION, *servers};
   one.threads = static_cast<int>(

@@ -42,13 +42,10 @@ Status run_echo(Program& program, const ServerChoice& choice) {
 
 }  // namespace
 
-std::filesystem::path servers_file(const std::string& chosen) {
-  return chosen.empty() ? imaging::pacs_configuration_to_read(imaging::pacs_configuration_file())
-                        : std::filesystem::path(chosen);
-}
-
 Result<ServerChoice::Chosen> ServerChoice::choose() const {
-  const auto configuration = imaging::read_pacs_configuration(servers_file(file));
+  const auto configuration = imaging::read_pacs_configuration(
+      file.empty() ? imaging::pacs_configuration_to_read(imaging::pacs_configuration_file())
+                   : std::filesystem::path(file));
   if (!configuration) return pass_on(configuration);
   auto chosen = configuration->server(server);
   if (!chosen) return pass_on(chosen);

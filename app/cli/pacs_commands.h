@@ -1,7 +1,6 @@
 // The commands under tidemark-cli pacs.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,14 +23,11 @@ struct ServerChoice {
 };
 void add_server_choice(CLI::App& command, ServerChoice& choice);
 
-// Which file of servers counts: `chosen`, else the usual one.
-[[nodiscard]] std::filesystem::path servers_file(const std::string& chosen);
-
 // The keys of a query for studies. `of_studies` alone make no sense for the series of a study.
 struct StudyKeys {
   std::vector<CLI::Option*> all, of_studies;
 };
-StudyKeys add_study_keys(CLI::App& command, imaging::StudyQuery& query);
+StudyKeys add_study_keys(CLI::App& command, imaging::StudyQuery& query, const char* of_description);
 
 void add_pacs_find(CLI::App& pacs, Program& program);
 void add_pacs_get(CLI::App& pacs, Program& program);

@@ -110,7 +110,7 @@ Status run(Program& program, const FindOptions& options) {
 
 }  // namespace
 
-StudyKeys add_study_keys(CLI::App& command, imaging::StudyQuery& query) {
+StudyKeys add_study_keys(CLI::App& command, imaging::StudyQuery& query, const char* of_description) {
   const auto add = [&](const char* name, std::string& value, const char* type, const char* description) {
     return command.add_option(name, value, description)->type_name(type);
   };
@@ -123,7 +123,7 @@ StudyKeys add_study_keys(CLI::App& command, imaging::StudyQuery& query) {
   };
   keys.all = keys.of_studies;
   keys.all.push_back(add("--modality", query.modality, "WORD", "CT, MR, ..."));
-  keys.all.push_back(add("--description", query.description, "TEXT", "Of the study"));
+  keys.all.push_back(add("--description", query.description, "TEXT", of_description));
   return keys;
 }
 
@@ -133,7 +133,7 @@ void add_pacs_find(CLI::App& pacs, Program& program) {
                                   [&program, options] { return run(program, *options); });
   add_server_choice(command, options->choice);
   imaging::StudyQuery& query = options->studies;
-  const StudyKeys keys = add_study_keys(command, query);
+  const StudyKeys keys = add_study_keys(command, query, "Of the study; with --study, of the series");
   CLI::Option* study = command.add_option("--study", options->study, "List the series of this study");
   study->type_name("UID");
   for (CLI::Option* option : keys.of_studies) option->excludes(study);

@@ -6,7 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "core/json/json.h"
-#include "document/cohort/find_cases.h"
+#include "document/cohort/work_list.h"
 
 namespace tidemark::cohort {
 namespace {

@@ -94,7 +94,11 @@ Status CaseFiles::measure() {
 Status CaseFiles::write_picture() {
   const auto picture =
       case_picture(result_.source, result_.phi, picture_side(result_.source.geometry), result_.threads);
-  if (!picture) return pass_on(picture);
+  if (!picture) {  // no reason to lose the case
+    status_.remarks.push_back("overview.png: is left out: " + picture.error().message);
+    return {};
+  }
+  status_.files.emplace_back("overview.png");
   return imaging::write_png_file(picture->width, picture->height, picture->pixels, folder_ / "overview.png",
                                  imaging::PngEffort::quick);
 }
@@ -155,7 +159,6 @@ Status CaseFiles::write() {
   TIDEMARK_TRY(write_outputs());
   TIDEMARK_TRY(write_recipe());
   if (!plan_.pictures) return {};
-  status_.files.emplace_back("overview.png");
   return write_picture();
 }
 

@@ -4,8 +4,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
+#include <thread>
 
 #include "core/atomic_file.h"
 #include "core/stopwatch.h"
@@ -39,12 +41,13 @@ class Case {
 
   Status compute();
   [[nodiscard]] CaseStatus& status() { return status_; }
-  // After a failure: it is that of a server which answers nobody.
+  // After a failure: it is the server's, or the way's to it.
   [[nodiscard]] bool is_server_away() const { return is_server_away_; }
 
  private:
   Status take_recipe();
   Status bring();
+  Status blame_server(const Error& error);
   Result<imaging::LoadedSeries> load_series();
   Status load();
   Status fill_in();
@@ -94,16 +97,32 @@ Status Case::take_recipe() {
   return {};
 }
 
+// A server may be busy for a while. What is not there is asked for once more; who answers nobody, for some
+// seconds.
 Status Case::bring() {
+  const auto server = run_.servers.server(row_.server);
+  if (!server) return blame_server(server.error());
   auto folder = imaging::PrivateFolder::create();
   if (!folder) return pass_on(folder);
-  const Status brought = bring_series(run_.servers, row_, folder->path(), progress_);
-  if (!brought && brought.error().kind == ErrorKind::input) {
-    const auto server = run_.servers.server(row_.server);
-    is_server_away_ = server && !imaging::pacs_echo(*server, progress_);
-  }
   brought_.emplace(std::move(*folder));
-  return brought;
+  Status brought;
+  bool answers = true;
+  for (const int pause_s : {0, 1, 3, 6}) {
+    std::this_thread::sleep_for(std::chrono::seconds(pause_s));
+    brought = bring_series(run_.servers, row_, brought_->path(), progress_);
+    if (brought) return {};
+    // The port that the server sends to is somebody else's.
+    if (brought.error().kind == ErrorKind::capability) return blame_server(brought.error());
+    if (brought.error().kind != ErrorKind::input) return brought;
+    answers = imaging::pacs_echo(*server, progress_).has_value();
+    if (answers && pause_s > 0) return brought;
+  }
+  return answers ? brought : blame_server(brought.error());
+}
+
+Status Case::blame_server(const Error& error) {
+  is_server_away_ = true;
+  return fail(ErrorKind::input, "{}", error.message);
 }
 
 Result<imaging::LoadedSeries> Case::load_series() {

@@ -21,8 +21,8 @@ struct CaseRun {
 
 // Computes a case by the host executor, as `segment --executor host` does, to the last bit, and writes all
 // but the status into the folder. What goes wrong with the case is in the status. Fails where it is no case's
-// fault: a file cannot be written (ErrorKind::write), the server that has the study answers nobody
-// (ErrorKind::input); and with ErrorKind::cancelled.
+// fault: a file cannot be written (ErrorKind::write), the server that has the study is not known, answers
+// nobody or cannot send to this machine (ErrorKind::input); and with ErrorKind::cancelled.
 Result<CaseStatus> run_case(const CaseRun& run, const WorkRow& row, const std::filesystem::path& folder,
                             const Progress& progress = {});
 

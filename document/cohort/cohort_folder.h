@@ -23,7 +23,7 @@ struct CohortPlan {
   bool pictures = true;
   std::string source;                       // that was planned: a folder, BIDS, a list, "pacs:SERVER"
   std::string program, planned;             // version; UTC
-  std::filesystem::path servers_file = {};  // of the servers that cases are on; empty: they are on none
+  std::filesystem::path servers_file = {};  // of the servers that cases are on; empty: the usual one
 };
 
 // Paths alone; nothing need be there.

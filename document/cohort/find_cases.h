@@ -15,9 +15,6 @@
 
 namespace tidemark::cohort {
 
-// How a SOURCE begins that is a server.
-inline constexpr std::string_view kPacsSource = "pacs:";
-
 struct FindOptions {
   // In folders: the inputs that count, by file name or by path below the folder (as the shell's *.nii.gz);
   // empty: all.

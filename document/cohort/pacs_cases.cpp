@@ -1,13 +1,7 @@
 #include "document/cohort/pacs_cases.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <system_error>
-#include <thread>
-
-#include "core/file_lock.h"
 
 namespace tidemark::cohort {
 namespace {
@@ -15,18 +9,32 @@ namespace {
 namespace fs = std::filesystem;
 using imaging::PacsServer;
 
-// The lock of the port that servers send to, where they do: a port has one listener.
-Result<FileLock> lock_port(const PacsServer& server, const Progress& progress) {
-  if (server.retrieve == PacsServer::Retrieve::get) return FileLock();
-  std::error_code error;
-  const fs::path file =
-      fs::temp_directory_path(error) / fmt::format("tidemark-port-{}-of-{}", server.move_port, ::geteuid());
-  for (;;) {
-    FileLock lock = FileLock::take(file, FileLock::Missing::make);
-    if (lock || !FileLock::is_taken(file)) return lock;
-    if (progress.cancelled()) return cancelled_error();
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+bool same_letter(char a, char b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return lower(a) == lower(b);
+}
+
+// By the wildcards * and ? of a query (DICOM PS3.4 C.2.2.2.4); servers may ignore case. An empty pattern asks
+// for nothing.
+bool matches(std::string_view pattern, std::string_view text) {
+  std::size_t at = 0, star = std::string_view::npos, from = 0, i = 0;
+  if (pattern.empty()) return true;
+  while (i < text.size()) {
+    if (at < pattern.size() && (pattern[at] == '?' || same_letter(pattern[at], text[i])) &&
+        pattern[at] != '*') {
+      ++at;
+      ++i;
+    } else if (at < pattern.size() && pattern[at] == '*') {
+      star = at++;
+      from = i;
+    } else if (star != std::string_view::npos) {
+      at = star + 1;
+      i = ++from;
+    } else {
+      return false;
+    }
   }
+  return pattern.find_first_not_of('*', at) == std::string_view::npos;
 }
 
 }  // namespace
@@ -44,12 +52,15 @@ Result<WorkList> find_in_pacs(const PacsServer& server, const PacsQuery& query,
   if (studies->more) return too_many();
   WorkList list;
   for (std::size_t i = 0; i < studies->entries.size(); ++i) {
+    if (!matches(query.studies.description, studies->entries[i].description)) continue;
     const std::string& study = studies->entries[i].uid;
     const auto series = imaging::find_pacs_series(
         server, {study, query.studies.modality, query.series_description}, limits, progress);
     if (!series) return pass_on(series);
     if (series->more) return too_many();
     for (const imaging::PacsSeries& one : series->entries) {
+      if (!matches(query.studies.modality, one.modality)) continue;
+      if (!matches(query.series_description, one.description)) continue;
       WorkRow row;
       row.id = safe_id(one.uid);
       row.server = server.name;
@@ -62,7 +73,10 @@ Result<WorkList> find_in_pacs(const PacsServer& server, const PacsQuery& query,
   std::sort(list.rows.begin(), list.rows.end(), [](const WorkRow& a, const WorkRow& b) {
     return std::tie(a.study, a.series) < std::tie(b.study, b.series);
   });
+  const auto again = std::unique(list.rows.begin(), list.rows.end());
+  list.rows.erase(again, list.rows.end());
   for (std::size_t i = 0; i < list.rows.size(); ++i) list.rows[i].line = i + 2;
+  list.find_double_ids(std::string(kPacsSource) + server.name);
   return list;
 }
 
@@ -74,23 +88,24 @@ std::string problem_with_server(const WorkRow& row, const imaging::PacsConfigura
   return {};
 }
 
-Result<imaging::PacsConfiguration> servers_of(const CohortPlan& plan) {
-  if (plan.servers_file.empty()) return imaging::PacsConfiguration();
-  return imaging::read_pacs_configuration(plan.servers_file);
+Result<imaging::PacsConfiguration> servers_of(const fs::path& file, std::span<const WorkRow> rows) {
+  const auto is_on_server = [](const WorkRow& row) { return !row.server.empty(); };
+  if (std::none_of(rows.begin(), rows.end(), is_on_server)) return imaging::PacsConfiguration();
+  return imaging::read_pacs_configuration(
+      file.empty() ? imaging::pacs_configuration_to_read(imaging::pacs_configuration_file()) : file);
 }
 
 Status bring_series(const imaging::PacsConfiguration& servers, const WorkRow& row, const fs::path& folder,
                     const Progress& progress) {
   const auto server = servers.server(row.server);
   if (!server) return pass_on(server);
-  const auto port = lock_port(*server, progress);
-  if (!port) return pass_on(port);
   const auto retrieved =
       imaging::retrieve(*server, {row.study, row.series, folder}, servers.limits, progress);
   if (!retrieved) return pass_on(retrieved);
-  if (retrieved->missing == 0 && retrieved->refused.empty()) return {};
+  // Objects that nobody asked for, or that came twice, are refused, too: they are no loss.
+  if (retrieved->missing == 0) return {};
   std::error_code ignored;
-  for (const fs::path& file : retrieved->files) fs::remove(file, ignored);
+  for (const fs::path& object : retrieved->files) fs::remove(object, ignored);
   if (!retrieved->refused.empty()) {
     return fail(ErrorKind::input, "{}: {}", row.place(), retrieved->refused.front());
   }

@@ -48,7 +48,8 @@ std::string picture_of(const CohortFolder& folder, const CaseStatus& status, Pag
     source = "data:image/png;base64," + base64(*bytes);
   }
   return fmt::format(
-      "<img loading=\"lazy\" decoding=\"async\" alt=\"Three slices with the outline, and the surface\" src=\"{}\">",
+      "<img loading=\"lazy\" decoding=\"async\" alt=\"Three slices with the outline, and the surface\" "
+      "src=\"{}\">",
       html_text(source));
 }
 

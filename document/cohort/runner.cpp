@@ -15,6 +15,7 @@
 #include "core/unfinished.h"
 #include "document/cohort/lease.h"
 #include "document/cohort/worker.h"
+#include "imaging/archive/private_folder.h"
 
 namespace tidemark::cohort {
 namespace {
@@ -372,6 +373,10 @@ Result<RunTally> Runner::run() {
   choose_rows();
   const Status ended = go_on();
   computing_.clear();  // workers end with their jobs; leases are given back
+  idle_.clear();
+  // Images that a worker had brought when it was killed.
+  std::error_code ignored;
+  imaging::sweep_private_folders(fs::temp_directory_path(ignored));
   const Status published = publish_if_due(true);
   if (!ended) return tl::unexpected(ended.error());
   if (!published) return tl::unexpected(published.error());

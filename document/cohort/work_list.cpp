@@ -224,7 +224,7 @@ std::string safe_id(std::string_view text) {
 }
 
 std::string WorkRow::place() const {
-  return server.empty() ? input.string() : fmt::format("pacs:{}/{}", server, study);
+  return server.empty() ? input.string() : fmt::format("{}{}/{}", kPacsSource, server, study);
 }
 
 void WorkRow::complete(const WorkRow& defaults) {

@@ -14,6 +14,9 @@
 
 namespace tidemark::cohort {
 
+// How the name of a server's studies begins: "pacs:SERVER".
+inline constexpr std::string_view kPacsSource = "pacs:";
+
 struct Seed {
   glm::dvec3 centre{0.0};  // voxel indices, or patient coordinates in mm (LPS)
   double radius_mm = 0.0;
@@ -63,8 +66,9 @@ struct WorkList {
   std::vector<std::string> problems;  // each names file, line and column
 
   // A table whose first line names its columns, of which `input` or `server` is needed. Relative paths are
-  // below `folder`. A row without an id has the name of its input. Fails (ErrorKind::input) where it is no
-  // table, or a column has no meaning. What is wrong in rows is a problem each.
+  // below `folder`. A row without an id has the name of its input, or the series' UID. Fails
+  // (ErrorKind::input) where it is no table, or a column has no meaning. What is wrong in rows is a problem
+  // each.
   static Result<WorkList> parse(std::string_view text, const std::string& file,
                                 const std::filesystem::path& folder);
   static Result<WorkList> load(const std::filesystem::path& file);

@@ -45,16 +45,19 @@ Result<PrivateFolder> PrivateFolder::create() {
   const fs::path parent = fs::temp_directory_path(error);
   if (error) return fail(ErrorKind::write, "there is no folder for temporary files: {}", error.message());
   sweep_private_folders(parent);
-  std::string pattern = (parent / (std::string(kPrefix) + "XXXXXX")).string();
-  if (::mkdtemp(pattern.data()) == nullptr) {
-    return fail(ErrorKind::write, "{}: cannot make a folder: {}", parent.string(),
-                std::generic_category().message(errno));
+  std::string pattern;
+  // Before it is locked, it is as one that is left: somebody's sweep may have it.
+  constexpr int kAttempts = 10;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    pattern = (parent / (std::string(kPrefix) + "XXXXXX")).string();
+    if (::mkdtemp(pattern.data()) == nullptr) {
+      return fail(ErrorKind::write, "{}: cannot make a folder: {}", parent.string(),
+                  std::generic_category().message(errno));
+    }
+    PrivateFolder folder(pattern, FileLock::take(fs::path(pattern) / kLock, FileLock::Missing::make));
+    if (folder.lock_ && fs::create_directory(folder.path(), error)) return folder;
   }
-  PrivateFolder folder(pattern, FileLock::take(fs::path(pattern) / kLock, FileLock::Missing::make));
-  if (!folder.lock_ || !fs::create_directory(folder.path(), error)) {
-    return fail(ErrorKind::write, "{}: cannot be written to", pattern);
-  }
-  return folder;
+  return fail(ErrorKind::write, "{}: cannot be written to", pattern);
 }
 
 void sweep_private_folders(const fs::path& parent) {

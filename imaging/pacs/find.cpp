@@ -174,7 +174,7 @@ Result<Found<Entry>> collect(const PacsServer& server, Question& question, const
 }  // namespace
 
 bool is_uid(const std::string& text) {
-  return !text.empty() && text.size() <= 64 &&
+  return !text.empty() && text.size() <= 64 && text.front() != '.' &&
          std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
 }
 

@@ -2,6 +2,9 @@
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmnet/dimse.h>
 
+#include <unistd.h>
+
+#include "core/file_lock.h"
 #include "imaging/pacs/receiver.h"
 #include "imaging/pacs/retrieval.h"
 
@@ -36,11 +39,18 @@ Result<std::int64_t> move(Association& association, const Proposal& proposal, co
   }
 }
 
+// A port has one listener: the programs of a user wait for each other. TMPDIR may differ among them.
+FileLock lock_port(int port, const std::stop_token& stop) {
+  const std::string file = fmt::format("/tmp/tidemark-port-{}-of-{}", port, ::geteuid());
+  return FileLock::wait(file, FileLock::Missing::make, stop);
+}
+
 }  // namespace
 
 Result<std::int64_t> retrieve_by_move(const PacsServer& server, const RetrieveRequest& request,
                                       const PacsLimits& limits, RetrievalFolder& retrieval_folder,
                                       const std::stop_token& stop) {
+  const FileLock port = lock_port(server.move_port, stop);
   auto receiver = Receiver::start(server, retrieval_folder, limits);
   if (!receiver) return pass_on(receiver);
   const Proposal proposal{UID_MOVEStudyRootQueryRetrieveInformationModel,

@@ -17,7 +17,7 @@
 
 namespace tidemark::imaging {
 
-// Digits and dots, at most 64 (DICOM PS3.5 9.1).
+// Digits and dots, at most 64, beginning with a digit (DICOM PS3.5 9.1).
 [[nodiscard]] bool is_uid(const std::string& text);
 
 // Whether the server is there and knows us (C-ECHO). Returns the seconds that its answer took.
@@ -87,8 +87,9 @@ struct Retrieved {
   std::int64_t missing = 0;          // objects that the server could not send
   std::vector<std::string> refused;  // the reasons for objects that came and were not taken
 };
-// Brings a series or a study as the server's `retrieve` says. Objects are checked and get names of ours. The
-// folder holds them when all have come; when it fails, or is killed before, nothing is in it.
+// Brings a series or a study as the server's `retrieve` says; by move, one at a time for each user and port
+// of this machine. Objects are checked and get names of ours. The folder holds them when all have come; when
+// it fails, or is killed before, nothing is in it.
 Result<Retrieved> retrieve(const PacsServer& server, const RetrieveRequest& request,
                            const PacsLimits& limits = {}, const Progress& progress = {});
 

@@ -15,8 +15,8 @@ namespace tidemark::test::cohort_pacs_test {
 namespace {
 
 constexpr int kStudies = 2;
-const QStringList kParameters{"--target", "1000",        "--range", "400",         "--alpha",
-                              "0.6",      "--max-steps", "60",      "--auto-start"};
+const QStringList kDrive{"--target", "1000", "--range", "400", "--alpha", "0.6"};
+const QStringList kParameters = kDrive + QStringList{"--max-steps", "60", "--auto-start"};
 
 // Some studies, on this disk.
 class Studies {
@@ -87,6 +87,8 @@ class CohortPacsTest : public QObject {
   void cases_have_the_masks_of_segment_and_leave_no_image_behind();
   void a_server_that_is_away_is_no_fault_of_a_case();
   void a_series_that_is_not_there_is_refused();
+  void a_case_that_is_ended_leaves_no_image_behind();
+  void rejected_cases_are_planned_with_the_servers_that_they_came_from();
   void a_query_that_finds_nothing_or_makes_no_sense_is_told_data();
   void a_query_that_finds_nothing_or_makes_no_sense_is_told();
 
@@ -109,9 +111,7 @@ void CohortPacsTest::cases_have_the_masks_of_segment_and_leave_no_image_behind()
   const QJsonObject tally =
       json_of(must_run({"cohort", "run", text(out), "--jobs", "3", "--json"}, options).out);
   QCOMPARE(tally["done"].toInt(), kStudies);
-  for (const QString& left : names_in(folder / "temporary")) {
-    QVERIFY2(left.startsWith("tidemark-port-"), qPrintable(left));
-  }
+  QCOMPARE(names_in(folder / "temporary"), QStringList());
   for (int i = 0; i < kStudies; ++i) {
     const auto series = studies_.series(i);
     const QString id = id_of(series);
@@ -166,6 +166,32 @@ void CohortPacsTest::a_series_that_is_not_there_is_refused() {
   QVERIFY2(!status["reason"].toString().contains("/tmp"), qPrintable(status["reason"].toString()));
 }
 
+void CohortPacsTest::a_case_that_is_ended_leaves_no_image_behind() {
+  const TemporaryFolder folder;
+  const auto out = folder / "cohort";
+  std::filesystem::create_directory(folder / "temporary");
+  RunOptions options;
+  options.environment.insert("TMPDIR", text(folder / "temporary"));
+  must_run(QStringList{"cohort", "plan", "pacs:dcmqrscp", "--modality", "MR", "--out", text(out), "--steps",
+                       "900000000", "--seed-mm", "0,0,0,5"} +
+           site_->use() + kDrive);
+  const QJsonObject tally =
+      json_of(must_run({"cohort", "run", text(out), "--timeout", "5", "--json"}, options).out);
+  QCOMPARE(tally["timed_out"].toInt(), kStudies);
+  QCOMPARE(names_in(folder / "temporary"), QStringList());
+}
+
+void CohortPacsTest::rejected_cases_are_planned_with_the_servers_that_they_came_from() {
+  const TemporaryFolder folder;
+  site_->plan(folder / "first");
+  const std::string rejected = id_of(studies_.series(1)).toStdString();
+  QVERIFY(write_file(folder / "said.csv", "id,decision,comment\n" + rejected + ",reject,\n"));
+  must_run({"cohort", "plan", text(folder / "first"), "--rejected", text(folder / "said.csv"), "--out",
+            text(folder / "second")});
+  QCOMPARE(bytes_of(folder / "second" / "work.csv").count('\n'), 2);
+  QCOMPARE(json_of(bytes_of(folder / "second" / "plan.json"))["servers"].toString(), site_->use()[1]);
+}
+
 void CohortPacsTest::a_query_that_finds_nothing_or_makes_no_sense_is_told_data() {
   QTest::addColumn<QStringList>("arguments");
   QTest::addColumn<int>("code");
@@ -175,6 +201,9 @@ void CohortPacsTest::a_query_that_finds_nothing_or_makes_no_sense_is_told_data()
                              << QByteArray("no PACS server 'other'");
   QTest::newRow("nothing") << QStringList{"pacs:dcmqrscp", "--modality", "PT"} << 3
                            << QByteArray("holds no case");
+  QTest::newRow("no such series") << QStringList{"pacs:dcmqrscp", "--modality", "MR", "--series-description",
+                                                 "Liver*"}
+                                  << 3 << QByteArray("holds no case");
   QTest::newRow("mask") << QStringList{"pacs:dcmqrscp", "--modality", "MR", "--mask", "x"} << 2
                         << QByteArray("--mask");
   QTest::newRow("folder") << QStringList{"/tmp", "--modality", "MR"} << 2 << QByteArray("pacs:main");

@@ -1,7 +1,9 @@
 #include "ui/cohort/case_opener.h"
 
+#include <span>
 #include <system_error>
 
+#include "document/checksum.h"
 #include "document/cohort/pacs_cases.h"
 #include "document/evolution.h"
 #include "document/replay.h"
@@ -37,13 +39,23 @@ Status give_map(document::Recipe& recipe, const std::filesystem::path& file, con
   return {};
 }
 
-// The folder with the series of a row on a server. It came whole, once, and is the same for each cohort.
+// Named by what it holds, without saying whose it is.
+std::filesystem::path folder_for(const cohort::WorkRow& row) {
+  constexpr std::size_t kLetters = 32;
+  const std::string name = row.server + "/" + row.study + "/" + row.series;
+  const std::filesystem::path kept = settings::retrieval_folder().get().toStdString();
+  return kept / document::sha256(std::as_bytes(std::span(name))).substr(0, kLetters);
+}
+
+// The series of a row on a server. It comes whole, once, and is the same for each cohort.
 Result<std::filesystem::path> brought(const cohort::WorkRow& row, const std::filesystem::path& servers_file,
                                       const std::filesystem::path& folder, const Progress& progress) {
   std::error_code error;
   if (!std::filesystem::is_empty(folder, error) && !error) return folder;
-  const auto servers = imaging::read_pacs_configuration(servers_file);
+  const auto servers = cohort::servers_of(servers_file, {&row, 1});
   if (!servers) return pass_on(servers);
+  const std::string problem = cohort::problem_with_server(row, *servers);
+  if (!problem.empty()) return fail(ErrorKind::input, "{}: {}", row.id, problem);
   std::filesystem::create_directories(folder.parent_path(), error);
   TIDEMARK_TRY(cohort::bring_series(*servers, row, folder, progress));
   return folder;
@@ -115,8 +127,7 @@ void CaseOpener::load(const imaging::GridPolicy& policy) {
 }
 
 void CaseOpener::bring(const imaging::GridPolicy& policy) {
-  const std::filesystem::path kept = settings::retrieval_folder().get().toStdString();
-  work_->run([row = entry_.row, file = servers_file_, folder = kept / entry_.row.series](
+  work_->run([row = entry_.row, file = servers_file_, folder = folder_for(entry_.row)](
                  const Progress& progress) { return brought(row, file, folder, progress); },
              [this, policy](const std::filesystem::path& folder) {
                loader_.load(folder, entry_.row.series, policy);
