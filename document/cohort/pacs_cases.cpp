@@ -1,5 +1,7 @@
 #include "document/cohort/pacs_cases.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <system_error>
 
@@ -9,32 +11,15 @@ namespace {
 namespace fs = std::filesystem;
 using imaging::PacsServer;
 
-bool same_letter(char a, char b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return lower(a) == lower(b);
-}
-
-// By the wildcards * and ? of a query (DICOM PS3.4 C.2.2.2.4); servers may ignore case. An empty pattern asks
-// for nothing.
-bool matches(std::string_view pattern, std::string_view text) {
-  std::size_t at = 0, star = std::string_view::npos, from = 0, i = 0;
-  if (pattern.empty()) return true;
-  while (i < text.size()) {
-    if (at < pattern.size() && (pattern[at] == '?' || same_letter(pattern[at], text[i])) &&
-        pattern[at] != '*') {
-      ++at;
-      ++i;
-    } else if (at < pattern.size() && pattern[at] == '*') {
-      star = at++;
-      from = i;
-    } else if (star != std::string_view::npos) {
-      at = star + 1;
-      i = ++from;
-    } else {
-      return false;
-    }
+// By the wildcards * and ? of a query (DICOM PS3.4 C.2.2.2.4), without regard to case, as servers may match.
+// An empty pattern asks for nothing.
+bool matches(const std::string& pattern, const std::string& text) {
+  std::string known;  // to fnmatch, which knows more
+  for (const char c : pattern) {
+    if (c == '[' || c == '\\') known += '\\';
+    known += c;
   }
-  return pattern.find_first_not_of('*', at) == std::string_view::npos;
+  return pattern.empty() || ::fnmatch(known.c_str(), text.c_str(), FNM_CASEFOLD) == 0;
 }
 
 }  // namespace
