@@ -1,9 +1,11 @@
 #include "document/cohort/case_picture.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "renderer/host/host_renderer.h"
 #include "renderer/sheet.h"
+#include "solver/inside_region.h"
 
 namespace tidemark::cohort {
 namespace {
@@ -23,6 +25,23 @@ void put(Picture& whole, const Picture& part, std::int64_t index) {
     const auto from = part.pixels.begin() + 4 * y * part.width;
     std::copy(from, from + 4 * part.width, whole.pixels.begin() + 4 * (y * whole.width + index * part.width));
   }
+}
+
+// Around the voxels inside with one more on each side; of the volume where there are none.
+renderer::Box box_around(const solver::Field& phi) {
+  const VoxelRange inside = solver::inside_region(phi).bounds();
+  if (inside.empty()) return renderer::box_around(phi);
+  renderer::Box box{glm::dvec3(1e300), glm::dvec3(-1e300)};
+  for (int corner = 0; corner < 8; ++corner) {
+    glm::dvec3 voxel(inside.low - Index3(1));
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((corner >> axis & 1) != 0) voxel[axis] = static_cast<double>(inside.high[axis]);
+    }
+    const glm::dvec3 place = phi.geometry.to_patient(voxel);
+    box.low = glm::min(box.low, place);
+    box.high = glm::max(box.high, place);
+  }
+  return box;
 }
 
 }  // namespace
@@ -47,7 +66,7 @@ Result<Picture> case_picture(const Volume& source, const solver::Field& phi, std
   renderer::VolumeView view;
   view.camera.azimuth = 30.0;
   view.camera.elevation = 20.0;
-  view.camera = view.camera.on(renderer::box_around(phi), source.geometry, 1.0);
+  view.camera = view.camera.on(box_around(phi), source.geometry, 1.0);
   view.background = glm::vec3(0.0F);
   const auto picture = (*renderer)->draw(view, {side, side});
   if (!picture) return picture;

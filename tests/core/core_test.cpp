@@ -5,13 +5,16 @@
 #include <csignal>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <new>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "core/atomic_file.h"
 #include "core/checked.h"
+#include "core/file_lock.h"
 #include "core/geometry.h"
 #include "core/machine_memory.h"
 #include "core/thread_pool.h"
@@ -226,6 +229,23 @@ class CoreTest : public QObject {
     QCOMPARE(status.error().kind, ErrorKind::write);
     QCOMPARE(contents(target), std::string("kept"));
     QCOMPARE(files_in(folder.path()), 1);
+  }
+
+  void a_lock_is_waited_for_until_it_is_free_or_nobody_wants_it() {
+    const TemporaryFolder folder;
+    const auto file = folder / "lock";
+    auto held = std::make_unique<FileLock>(FileLock::take(file, FileLock::Missing::make));
+    QVERIFY(*held);
+    std::atomic<bool> has_it = false;
+    std::jthread waiting([&] { has_it = bool(FileLock::wait(file, FileLock::Missing::make, {})); });
+    std::stop_source given_up;
+    given_up.request_stop();
+    QVERIFY(!FileLock::wait(file, FileLock::Missing::make, given_up.get_token()));
+    QVERIFY(!has_it);
+    held.reset();
+    waiting.join();
+    QVERIFY(has_it);
+    QVERIFY(!FileLock::wait(folder / "no/such/folder", FileLock::Missing::make, {}));
   }
 
   void the_pool_does_each_index_once() {

@@ -44,7 +44,7 @@ def check_panels():
     keys = set(re.findall(r'\badd\("([a-z-]+)", tr\(', docks))
     for file in ["teaching", "cohort_review"]:
         text = (source / f"ui/main/{file}.cpp").read_text()
-        keys |= set(re.findall(r'dock_->setObjectName\("([a-z-]+)"\)', text))
+        keys |= set(re.findall(r'make_side_dock\(window_, "([a-z-]+)"', text))
     if len(keys) < 10 or "lesson" not in keys:
         faults.append(f"few panels found in the code: {sorted(keys)}")
     pages = {page.stem for page in (book / "panels").glob("*.md")}

@@ -49,6 +49,7 @@ class CohortListTest : public QObject {
   void what_is_no_table_is_refused();
   void all_problems_are_named_at_once();
   void a_wrong_field_is_named_by_line_and_column_data();
+  void a_study_is_on_the_disk_or_on_a_server();
   void a_wrong_field_is_named_by_line_and_column();
   void ids_are_safe_names_of_folders();
   void a_row_takes_what_it_lacks();
@@ -67,6 +68,25 @@ void CohortListTest::a_list_is_written_as_it_was_read() {
   QCOMPARE(list.rows[1].seeds_mm[0].centre.x, -1.5);
   QCOMPARE(list.rows[1].line, std::size_t{3});
   QCOMPARE(QByteArray::fromStdString(list.to_text()), QByteArray::fromStdString(text));
+}
+
+void CohortListTest::a_study_is_on_the_disk_or_on_a_server() {
+  const std::string text =
+      "id,input,server,study,series\r\na,/data/a.nii.gz,,,\r\n1.2.3.4,,main,1.2.3,1.2.3.4\r\n";
+  const WorkList list = parsed(text);
+  QVERIFY(list.problems.empty());
+  QCOMPARE(QString::fromStdString(list.rows.at(0).place()), QString("/data/a.nii.gz"));
+  QCOMPARE(QString::fromStdString(list.rows.at(1).place()), QString("pacs:main/1.2.3"));
+  QCOMPARE(QByteArray::fromStdString(list.to_text()), QByteArray::fromStdString(text));
+  QCOMPARE(QString::fromStdString(parsed("server,study,series\nmain,1.2,1.2.3\n").rows.at(0).id),
+           QString("1.2.3"));
+  for (const auto& [row, why] :
+       {std::pair("a,x.nii,main,1.2,1.2.3", "a study is in one of them"),
+        std::pair("a,,main,,1.2.3", "both are needed"), std::pair("a,,main,1.2,", "both are needed"),
+        std::pair("a,x.nii,,1.2,", "study: needs a server"), std::pair("a,,,,", "input: is missing")}) {
+    const WorkList wrong = parsed(std::string("id,input,server,study,series\n") + row + "\n");
+    QVERIFY2(!wrong.problems.empty() && wrong.problems.front().find(why) != std::string::npos, row);
+  }
 }
 
 void CohortListTest::fields_with_commas_quotes_and_line_ends_survive() {
@@ -103,7 +123,7 @@ void CohortListTest::what_is_no_table_is_refused_data() {
   QTest::newRow("unknown column") << QByteArray("input,tagret\n") << "line 1: no column is named 'tagret'";
   QTest::newRow("double column") << QByteArray("input,id,input\n")
                                  << "line 1: the column 'input' is there twice";
-  QTest::newRow("no input") << QByteArray("id\na\n") << "a column 'input' is needed";
+  QTest::newRow("no input") << QByteArray("id\na\n") << "a column 'input' or 'server' is needed";
   QTest::newRow("short row") << QByteArray("id,input\na\n") << "line 2: 1 fields, but 2 columns";
   QTest::newRow("open quote") << QByteArray("id,input\na,\"b\n") << "line 2: a quote is not closed";
   QTest::newRow("after a quote") << QByteArray("id,input\na,\"b\"c\n")
