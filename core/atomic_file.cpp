@@ -80,7 +80,7 @@ void sweep_beside(const fs::path& target) {
 template <class Make>
 Result<fs::path> make_beside(const fs::path& target, const Make& make) {
   constexpr int kAttempts = 100;
-  std::random_device random;
+  thread_local std::random_device random;  // costs more to make than to ask
   int error = EEXIST;
   for (int attempt = 0; attempt < kAttempts && error == EEXIST; ++attempt) {
     const std::string name =

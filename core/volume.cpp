@@ -44,13 +44,14 @@ std::pair<float, float> Volume::common_range() const {
   // An odd stride does not follow rows or slices.
   const std::int64_t stride = std::max<std::int64_t>(1, geometry.voxel_count() / kSample) | 1;
   std::vector<float> sample;
+  sample.reserve(static_cast<std::size_t>((geometry.voxel_count() + stride - 1) / stride));
   with_type(*this, [&](const auto& typed) {
     for (std::int64_t i = 0; i < geometry.voxel_count(); i += stride) sample.push_back(typed.value(i));
   });
   const auto one_in = static_cast<std::ptrdiff_t>(sample.size() / 200);
   std::nth_element(sample.begin(), sample.begin() + one_in, sample.end());
   const float low = sample[static_cast<std::size_t>(one_in)];
-  std::nth_element(sample.begin(), sample.end() - 1 - one_in, sample.end());
+  std::nth_element(sample.begin() + one_in, sample.end() - 1 - one_in, sample.end());
   return {low, *(sample.end() - 1 - one_in)};
 }
 

@@ -64,9 +64,9 @@ std::vector<std::optional<Result<Series>>> scan_volume_files(const std::vector<S
 
 // Files that are no DICOM may be volume files.
 Result<Catalogue> find_in_folder(const fs::path& folder, const Progress& progress) {
-  auto catalogue = scan_dicom(folder, progress);
+  auto catalogue = scan_dicom(folder, progress.part(0, 2));
   if (!catalogue) return catalogue;
-  auto scanned = scan_volume_files(catalogue->skipped, progress);
+  auto scanned = scan_volume_files(catalogue->skipped, progress.part(1, 2));
   if (progress.cancelled()) return cancelled_error();
   std::vector<SkippedFile> skipped;
   for (std::size_t i = 0; i < scanned.size(); ++i) {
@@ -148,8 +148,8 @@ Result<Volume> load_chosen(const Series& series, const Progress& progress) {
     if (series.archive) volume.error().message = series.archive->name_archive_in(volume.error().message);
     return volume;
   }
-  const fs::path& first = series.files.front();
-  const std::string source = is_volume_file(series) ? first.string() : first.parent_path().string();
+  if (is_volume_file(series)) return volume;  // which has neither slope nor intercept, and was checked
+  const std::string source = series.files.front().parent_path().string();
   TIDEMARK_TRY(require_finite(*volume, source));
   TIDEMARK_TRY(require_finite_range(*volume, source));
   return volume;
@@ -165,7 +165,6 @@ Result<LoadedSeries> load_volume_file(const fs::path& file, const Progress& prog
   return guarded(file, [&]() -> Result<LoadedSeries> {
     auto read = read_volume_with_series(file, progress);
     if (!read) return pass_on(read);
-    TIDEMARK_TRY(require_finite_range(read->volume, file.string()));
     return LoadedSeries{std::move(read->series), std::move(read->volume)};
   });
 }

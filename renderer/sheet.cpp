@@ -126,9 +126,13 @@ Box box_around(const solver::Field& phi) {
       high = glm::max(high, glm::dvec3(first + phi.layout.valid_shape(page) - Index3(1)));
     }
   }
+  return box_around(low, high, phi.geometry);
+}
+
+Box box_around(glm::dvec3 low, glm::dvec3 high, const Geometry& geometry) {
   Box box{glm::dvec3(1e300), glm::dvec3(-1e300)};
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 p = phi.geometry.to_patient(
+    const glm::dvec3 p = geometry.to_patient(
         {corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z});
     box.low = glm::min(box.low, p);
     box.high = glm::max(box.high, p);

@@ -33,6 +33,9 @@ Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, Pictu
 glm::dvec3 middle_of(const Mask& mask);
 Box box_around(const solver::Field& phi);
 
+// The box along the patient's axes around a box of voxels, whose ends are voxel coordinates.
+Box box_around(glm::dvec3 low, glm::dvec3 high, const Geometry& geometry);
+
 // The file's own window, or one over the values that are common.
 WindowLevel window_of(const Volume& source);
 

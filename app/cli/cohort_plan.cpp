@@ -83,7 +83,7 @@ class PlanCommand {
   Status take_outputs();
   Status take_recipe();
   Status check_source() const;
-  Status read_servers(std::span<const cohort::WorkRow> rows);
+  Status take_servers(Result<imaging::PacsConfiguration> servers);
   Status find();
   Status keep_rejected();
   Status check();
@@ -169,9 +169,7 @@ Status PlanCommand::find() {
   if (!arguments_.servers.empty())
     plan_.servers_file = std::filesystem::absolute(arguments_.servers).lexically_normal();
   if (arguments_.source.starts_with(cohort::kPacsSource)) {
-    cohort::WorkRow any;
-    any.server = arguments_.source;
-    TIDEMARK_TRY(read_servers({&any, 1}));
+    TIDEMARK_TRY(take_servers(imaging::read_chosen_pacs_configuration(plan_.servers_file)));
   }
   auto found = cohort::find_cases(arguments_.source, options_, console_.progress());
   if (!found) return pass_on(found);
@@ -191,8 +189,7 @@ Status PlanCommand::find() {
   return {};
 }
 
-Status PlanCommand::read_servers(std::span<const cohort::WorkRow> rows) {
-  auto servers = cohort::servers_of(plan_.servers_file, rows);
+Status PlanCommand::take_servers(Result<imaging::PacsConfiguration> servers) {
   if (!servers) return pass_on(servers);
   options_.servers = std::move(*servers);
   return {};
@@ -218,7 +215,10 @@ Status PlanCommand::keep_rejected() {
 }
 
 Status PlanCommand::check() {
-  TIDEMARK_TRY(read_servers(found_.list.rows));
+  // Of a query they are known.
+  if (options_.servers.servers.empty()) {
+    TIDEMARK_TRY(take_servers(cohort::servers_of(plan_.servers_file, found_.list.rows)));
+  }
   if (options_.servers.servers.empty() && !arguments_.servers.empty()) {
     return fail(ErrorKind::usage, "--servers: no case of {} is on a server", arguments_.source);
   }

@@ -43,9 +43,7 @@ Status run_echo(Program& program, const ServerChoice& choice) {
 }  // namespace
 
 Result<ServerChoice::Chosen> ServerChoice::choose() const {
-  const auto configuration = imaging::read_pacs_configuration(
-      file.empty() ? imaging::pacs_configuration_to_read(imaging::pacs_configuration_file())
-                   : std::filesystem::path(file));
+  const auto configuration = imaging::read_chosen_pacs_configuration(file);
   if (!configuration) return pass_on(configuration);
   auto chosen = configuration->server(server);
   if (!chosen) return pass_on(chosen);

@@ -1,7 +1,6 @@
 #include "document/cohort/case_picture.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
 
 #include "renderer/host/host_renderer.h"
 #include "renderer/sheet.h"
@@ -31,17 +30,7 @@ void put(Picture& whole, const Picture& part, std::int64_t index) {
 renderer::Box box_around(const solver::Field& phi) {
   const VoxelRange inside = solver::inside_region(phi).bounds();
   if (inside.empty()) return renderer::box_around(phi);
-  renderer::Box box{glm::dvec3(1e300), glm::dvec3(-1e300)};
-  for (int corner = 0; corner < 8; ++corner) {
-    glm::dvec3 voxel(inside.low - Index3(1));
-    for (int axis = 0; axis < 3; ++axis) {
-      if ((corner >> axis & 1) != 0) voxel[axis] = static_cast<double>(inside.high[axis]);
-    }
-    const glm::dvec3 place = phi.geometry.to_patient(voxel);
-    box.low = glm::min(box.low, place);
-    box.high = glm::max(box.high, place);
-  }
-  return box;
+  return renderer::box_around(glm::dvec3(inside.low - Index3(1)), glm::dvec3(inside.high), phi.geometry);
 }
 
 }  // namespace

@@ -76,8 +76,7 @@ std::string problem_with_server(const WorkRow& row, const imaging::PacsConfigura
 Result<imaging::PacsConfiguration> servers_of(const fs::path& file, std::span<const WorkRow> rows) {
   const auto is_on_server = [](const WorkRow& row) { return !row.server.empty(); };
   if (std::none_of(rows.begin(), rows.end(), is_on_server)) return imaging::PacsConfiguration();
-  return imaging::read_pacs_configuration(
-      file.empty() ? imaging::pacs_configuration_to_read(imaging::pacs_configuration_file()) : file);
+  return imaging::read_chosen_pacs_configuration(file);
 }
 
 Status bring_series(const imaging::PacsConfiguration& servers, const WorkRow& row, const fs::path& folder,

@@ -117,6 +117,7 @@ class Runner {
   std::vector<Worker> idle_;
   std::list<Job> complete_;  // to be published
   Stopwatch since_refresh_;
+  Status out_of_reach_;  // failed: a case needs what is not there now, and the run begins no others
   RunTally tally_;
 };
 
@@ -246,8 +247,14 @@ Status Runner::wait_for_some() {
   for (auto job = computing_.begin(); job != computing_.end(); ++at) {
     const auto present = job++;
     if (polled[at].revents == 0) continue;
-    TIDEMARK_TRY(collect(*present));
-    complete_.splice(complete_.end(), computing_, present);
+    Status collected = collect(*present);
+    if (collected) {
+      complete_.splice(complete_.end(), computing_, present);
+      continue;
+    }
+    computing_.erase(present);  // given back
+    if (collected.error().kind != ErrorKind::input) return collected;
+    out_of_reach_ = std::move(collected);
   }
   return {};
 }
@@ -356,15 +363,17 @@ void Runner::report() {
 
 Status Runner::go_on() {
   report();
-  while (next_ < rows_.size() || !computing_.empty()) {
-    TIDEMARK_TRY(start_some());
+  while ((out_of_reach_ && next_ < rows_.size()) || !computing_.empty()) {
+    if (out_of_reach_) {
+      TIDEMARK_TRY(start_some());
+    }
     TIDEMARK_TRY(wait_for_some());
     if (progress_.cancelled()) return cancelled_error();
     end_those_over_time();
     refresh_leases();
     TIDEMARK_TRY(publish_if_due(false));
   }
-  return {};
+  return out_of_reach_;
 }
 
 Result<RunTally> Runner::run() {

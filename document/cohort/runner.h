@@ -21,8 +21,9 @@ struct RunOptions {
   std::string program;            // version, for the status of a case that could not write its own
 };
 
-// Writes what there is to write of a case into the folder, in another process. An error stops the whole
-// run: what is wrong with the case alone is in the status.
+// Writes what there is to write of a case into the folder, in another process. An error ends the whole run,
+// at once or, of ErrorKind::input, when the cases beside are complete. What is wrong with the case alone is
+// in the status.
 using ComputeCase =
     std::function<Result<CaseStatus>(const WorkRow& row, const std::filesystem::path& folder)>;
 

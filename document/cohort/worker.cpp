@@ -58,9 +58,10 @@ void silence() {
 // Memory that one case gives back is at hand for the next: small ones spend much of their time on that
 // otherwise.
 void keep_memory() {
-  constexpr int kKept = 64 << 20;  // bytes
+  constexpr int kKept = 64 << 20;     // bytes
+  constexpr int kLargest = 32 << 20;  // more is refused
   ::mallopt(M_TRIM_THRESHOLD, kKept);
-  ::mallopt(M_MMAP_THRESHOLD, kKept);
+  ::mallopt(M_MMAP_THRESHOLD, kLargest);
 }
 
 // A page table's notes of what was touched: the peak is then that of the next piece of work.

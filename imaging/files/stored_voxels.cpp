@@ -97,7 +97,11 @@ VolumeType volume_type(const PixelLayout& layout) {
 }
 
 Result<Volume::Voxels> read_stored_voxels(const PixelLayout& layout) {
-  TIDEMARK_TRY(check_stream(layout));  // before memory is taken for it
+  // Memory for a header that lies is taken only where it is little.
+  constexpr std::int64_t kLittle = std::int64_t{32} << 20;  // bytes
+  if (layout.bytes > kLittle) {
+    TIDEMARK_TRY(check_stream(layout));
+  }
   switch (layout.scalar) {
     case Scalar::int8:
       return read_as<std::int8_t, std::int16_t>(layout);

@@ -180,6 +180,11 @@ fs::path pacs_configuration_to_read(const fs::path& own) {
   return !fs::exists(own, error) && fs::exists(of_site, error) ? of_site : own;
 }
 
+Result<PacsConfiguration> read_chosen_pacs_configuration(const fs::path& chosen) {
+  return read_pacs_configuration(chosen.empty() ? pacs_configuration_to_read(pacs_configuration_file())
+                                                : chosen);
+}
+
 Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {
   const auto text = text_of(file);
   if (!text) return pass_on(text);

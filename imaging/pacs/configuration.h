@@ -70,6 +70,9 @@ struct PacsConfiguration {
 // and the field at fault.
 Result<PacsConfiguration> read_pacs_configuration(const std::filesystem::path& file);
 
+// The file that a user has chosen; where none is (empty), the user's own or the site's.
+Result<PacsConfiguration> read_chosen_pacs_configuration(const std::filesystem::path& chosen);
+
 // Makes the folder where it is missing. Fails (ErrorKind::write).
 Status write_pacs_configuration(const PacsConfiguration& configuration, const std::filesystem::path& file);
 

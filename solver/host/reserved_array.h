@@ -6,7 +6,8 @@
 
 namespace tidemark::solver {
 
-// Room for `capacity` values in the address space alone: memory is taken, zeroed, when it is first touched.
+// Room for `capacity` values in the address space alone: memory is taken, zeroed, when it is first touched. A
+// small array has its memory at once.
 // Nothing ever moves, so growing copies nothing and addresses stay good. T must be usable when it is all
 // zero bytes. Throws std::bad_alloc when the address space cannot be had.
 void* reserve_address_space(std::size_t bytes);

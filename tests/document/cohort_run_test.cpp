@@ -109,6 +109,7 @@ class CohortRunTest : public QObject {
   void each_case_is_computed_once();
   void a_case_that_fails_stops_no_other();
   void a_full_disk_is_no_fault_of_a_case();
+  void what_is_out_of_reach_ends_no_case_beside_it();
   void cases_without_a_result_are_tried_again_when_asked();
   void shards_share_the_rows();
   void a_stopped_run_gives_back_what_it_has_begun();
@@ -172,6 +173,30 @@ void CohortRunTest::a_full_disk_is_no_fault_of_a_case() {
   const auto again = cohort::run_cohort(planned.folder(), list_of(numbered(8)), {}, succeed);
   QCOMPARE(test::failure(again), QString());
   QCOMPARE(planned.done().size(), std::size_t{8});
+  QCOMPARE(planned.left(), QString());
+}
+
+void CohortRunTest::what_is_out_of_reach_ends_no_case_beside_it() {
+  const Planned planned;
+  const test::TemporaryFolder notes;
+  const auto reach = [&](const WorkRow& row, const fs::path& folder) -> Result<CaseStatus> {
+    if (row.id == "far") {
+      while (!fs::exists(notes / "begun")) ::usleep(1'000);
+      return fail(ErrorKind::input, "main: does not answer");
+    }
+    std::ofstream(notes / "begun") << "x";
+    ::usleep(300'000);
+    return succeed(row, folder);
+  };
+  cohort::RunOptions options;
+  options.jobs = 2;
+  const auto tally = cohort::run_cohort(planned.folder(), list_of({"far", "near"}), options, reach);
+  QVERIFY(!tally);
+  QCOMPARE(QString::fromStdString(tally.error().message), QString("main: does not answer"));
+  QCOMPARE(planned.done(), (std::set<std::string>{"near"}));
+  const auto again = cohort::run_cohort(planned.folder(), list_of({"far", "near"}), options, succeed);
+  QCOMPARE(test::failure(again), QString());
+  QCOMPARE(again->before, std::int64_t{1});
   QCOMPARE(planned.left(), QString());
 }
 
