@@ -35,6 +35,11 @@ const Language& language_of_system() {
   return kLanguages[0];
 }
 
+QString& code_in_use() {
+  static QString code = QString::fromLatin1(kLanguages[0].code);
+  return code;
+}
+
 QByteArray texts_of(const QString& code) {
   QFile file(QStringLiteral(":/tidemark/languages/%1.json").arg(code));
   return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
@@ -47,21 +52,26 @@ std::span<const Language> languages() {
 }
 
 void use_language(const QString& code) {
-  static std::vector<std::unique_ptr<QTranslator>> used;
-  for (const auto& translator : used) QCoreApplication::removeTranslator(translator.get());
-  used.clear();
+  static std::vector<std::unique_ptr<QTranslator>> translators;
+  for (const auto& translator : translators) QCoreApplication::removeTranslator(translator.get());
+  translators.clear();
   const QString chosen = code.isEmpty() ? QString::fromLatin1(language_of_system().code) : code;
   const bool is_of_system = QLocale(chosen).language() == QLocale::system().language();
   QLocale::setDefault(code.isEmpty() || is_of_system ? QLocale::system() : QLocale(chosen));
   const auto use = [&](std::unique_ptr<QTranslator> translator) {
     if (translator->isEmpty()) return;
     QCoreApplication::installTranslator(translator.get());
-    used.push_back(std::move(translator));
+    translators.push_back(std::move(translator));
   };
   auto qt = std::make_unique<QTranslator>();
   if (qt->load(QStringLiteral("qtbase_") + chosen, QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
     use(std::move(qt));
   use(std::make_unique<Catalogue>(texts_of(chosen)));  // asked before Qt's
+  code_in_use() = chosen;
+}
+
+QString used_language() {
+  return code_in_use();
 }
 
 }  // namespace tidemark::ui

@@ -18,4 +18,7 @@ std::span<const Language> languages();  // English first
 // the system has them. There is an application; on the thread of the user interface.
 void use_language(const QString& code);
 
+// The code of the language that texts are made in: never empty.
+QString used_language();
+
 }  // namespace tidemark::ui

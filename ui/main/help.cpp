@@ -10,12 +10,14 @@
 
 #include "ui/lessons/lesson_editor.h"
 #include "ui/lessons/lesson_trial.h"
+#include "ui/look/language.h"
 #include "ui/main/keys_dialog.h"
 #include "ui/main/main_window.h"
 #include "ui/opening/series_browser.h"
 #include "ui/pacs/query_dialog.h"
 #include "ui/pacs/servers_dialog.h"
 #include "ui/panels/registration_dialog.h"
+#include "ui/results/deidentify_dialog.h"
 #include "ui/results/result_dialog.h"
 
 namespace tidemark::ui {
@@ -37,6 +39,7 @@ QString page_of(const QWidget* widget, const MainWindow& window) {
     if (is_one_of<QueryDialog, ServersDialog>(widget)) return QStringLiteral("pacs");
     if (is_one_of<SeriesBrowser, RegistrationDialog>(widget)) return QStringLiteral("opening");
     if (is_one_of<ResultDialog>(widget)) return QStringLiteral("results");
+    if (is_one_of<DeidentifyDialog>(widget)) return QStringLiteral("deidentify");
     if (is_one_of<LessonEditor, LessonTrial>(widget)) return QStringLiteral("lessons");
     if (is_one_of<KeysDialog>(widget)) return QStringLiteral("window");
     if (widget->isWindow()) break;
@@ -73,8 +76,14 @@ bool Help::eventFilter(QObject* watched, QEvent* event) {
 void Help::open() {
   const QWidget* focus = QApplication::focusWidget();
   const QString page = page_of(focus ? focus : QApplication::activeWindow(), window_);
+  // Pages of other languages than English lie in a folder of theirs, where there are any.
+  QStringList places;
   for (const QString& folder : folders_) {
-    const QFileInfo file(QStringLiteral("%1/%2.html").arg(folder, page));
+    places << QStringLiteral("%1/%2/%3.html").arg(folder, used_language(), page)
+           << QStringLiteral("%1/%2.html").arg(folder, page);
+  }
+  for (const QString& place : places) {
+    const QFileInfo file(place);
     if (!file.exists()) continue;
     if (QDesktopServices::openUrl(QUrl::fromLocalFile(file.canonicalFilePath()))) {
       return window_.settle(kAboutHandbook);

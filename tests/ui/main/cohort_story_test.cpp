@@ -3,7 +3,6 @@
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QListView>
-#include <QScopeGuard>
 #include <QTimer>
 #include <fstream>
 
@@ -19,7 +18,6 @@
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/student.h"
 #include "ui/cohort/cohort_panel.h"
-#include "ui/look/language.h"
 #include "ui/main/cohort_review.h"
 #include "ui/widgets/work_line.h"
 
@@ -314,10 +312,6 @@ void CohortStoryTest::a_changed_surface_is_not_left_without_a_question() {
 
 void CohortStoryTest::it_stays_open_when_the_language_changes() {
   const Variable language("TIDEMARK_STORY_LANGUAGE", "de");
-  const auto back = qScopeGuard([] {
-    ui::use_language("en");
-    QLocale::setDefault(QLocale::c());
-  });
   Desktop desktop(story_executor(), {1382, 858});
   desktop.window().open(balls_->path());
   QVERIFY(Desktop::wait_for([&] { return panel(desktop) != nullptr; }));

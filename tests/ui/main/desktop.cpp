@@ -1,5 +1,6 @@
 #include "tests/ui/main/desktop.h"
 
+#include <QLocale>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMouseEvent>
@@ -13,6 +14,7 @@
 #include <cstdlib>
 
 #include "engine/case_runner.h"
+#include "ui/look/language.h"
 #include "ui/look/theme.h"
 #include "ui/settings.h"
 
@@ -62,7 +64,11 @@ Desktop::Desktop(solver::ExecutorKind executor, QSize size, bool use_opengl) {
 
 Desktop::~Desktop() {
   window_.reset();
-  languages_.reset();
+  if (languages_) {
+    languages_.reset();
+    ui::use_language("en");
+    QLocale::setDefault(QLocale::c());
+  }
   engine_.reset();
   WatchedApplication& watched = WatchedApplication::instance();
   qInfo("the longest event took %s", qPrintable(watched.longest()));

@@ -26,12 +26,15 @@ class Handbook {
   Handbook() {
     const QDir source(QStringLiteral(TIDEMARK_SOURCE "/handbook"));
     for (const QString& below : {QString("."), QString("panels")}) {
-      QDir(folder()).mkpath(below);
-      for (const QString& page : QDir(source.filePath(below)).entryList({"*.md"})) {
-        QFile file(QStringLiteral("%1/%2/%3").arg(folder(), below, page.chopped(3) + ".html"));
-        if (!file.open(QIODevice::WriteOnly)) qFatal("a page cannot be made");
-      }
+      for (const QString& page : QDir(source.filePath(below)).entryList({"*.md"}))
+        add(QStringLiteral("%1/%2.html").arg(below, page.chopped(3)));
     }
+  }
+  void add(const QString& page) {
+    const QString path = folder() + "/" + page;
+    QDir().mkpath(QFileInfo(path).path());
+    QFile file(path);
+    if (!file.open(QIODevice::WriteOnly)) qFatal("a page cannot be made");
   }
   [[nodiscard]] QString folder() const { return QString::fromStdString(folder_.path().string()); }
 
@@ -84,6 +87,7 @@ class HelpStoryTest : public QObject {
   void the_lesson_has_its_page();
   void dialogs_have_theirs();
   void without_a_panel_it_is_the_first_page();
+  void pages_in_the_language_of_the_program_come_first();
   void without_a_handbook_a_message_says_where_it_is();
 };
 
@@ -174,6 +178,24 @@ void HelpStoryTest::without_a_panel_it_is_the_first_page() {
   QCOMPARE(browser.page(handbook), QString("first-page.html"));
   desktop.choose("Help", desktop.menu_entry("Help", "Handbook"));
   QCOMPARE(browser.page(handbook), QString("first-page.html"));
+}
+
+void HelpStoryTest::pages_in_the_language_of_the_program_come_first() {
+  Handbook handbook;
+  handbook.add("de/first-page.html");
+  Browser browser;
+  const Variable language("TIDEMARK_STORY_LANGUAGE", "de");
+  Desktop desktop(story_executor(), {1100, 700});
+  desktop.window().help().look_in({handbook.folder()});
+  desktop.press(Qt::Key_F1);
+  QCOMPARE(browser.page(handbook), QString("de/first-page.html"));
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.window().panels().show("level-set");
+  desktop.wait_until_idle();
+  auto* dock = desktop.window().findChild<QDockWidget*>("level-set");
+  first_that_takes_keys(*dock->widget())->setFocus();
+  desktop.press(Qt::Key_F1);
+  QCOMPARE(browser.page(handbook), QString("panels/level-set.html"));  // not translated
 }
 
 void HelpStoryTest::without_a_handbook_a_message_says_where_it_is() {

@@ -50,11 +50,7 @@ class DesktopIn : public Desktop {
  public:
   explicit DesktopIn(const QByteArray& language)
       : Desktop((qputenv("TIDEMARK_STORY_LANGUAGE", language), story_executor())) {}
-  ~DesktopIn() {
-    ui::use_language("en");
-    QLocale::setDefault(QLocale::c());
-    qunsetenv("TIDEMARK_STORY_LANGUAGE");
-  }
+  ~DesktopIn() { qunsetenv("TIDEMARK_STORY_LANGUAGE"); }
 
   // By clicks in the menus, in which each language has its own name.
   void speak(const QString& language) {
