@@ -1,20 +1,15 @@
 // tidemark-cli deidentify: DICOM files made anonymous.
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <system_error>
 
 #include "app/cli/deidentify_options.h"
 #include "app/cli/outputs.h"
 #include "app/cli/program.h"
-#include "core/csv.h"
 #include "core/files_below.h"
+#include "imaging/deidentify/deidentified_folder.h"
 
 namespace tidemark::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kSummary = "Makes DICOM files anonymous";
 constexpr const char* kDescription =
@@ -34,39 +29,13 @@ struct Arguments {
   imaging::DeidentifyOptions options;
 };
 
-bool lies_in(const fs::path& path, const fs::path& folder) {
-  std::error_code ignored;
-  const fs::path inner = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  const fs::path outer = fs::weakly_canonical(fs::absolute(folder, ignored), ignored);
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
-
-Status check_places(const Arguments& arguments) {
-  const fs::path out = arguments.out;
-  if (lies_in(out, arguments.input) || lies_in(arguments.input, out)) {
-    return fail(ErrorKind::usage, "--out {}: is INPUT, lies in it or holds it", arguments.out);
-  }
-  std::error_code error;
-  if (fs::exists(out, error) && (!fs::is_directory(out, error) || !fs::is_empty(out, error))) {
-    return fail(ErrorKind::usage, "--out {}: is there and not empty", arguments.out);
-  }
-  for (const auto& [option, file] : {std::pair{"--list", arguments.list}, {"--key", arguments.key}}) {
-    if (file.empty()) continue;
-    if (lies_in(file, out) || lies_in(file, arguments.input)) {
-      return fail(ErrorKind::usage, "{} {}: lies in INPUT or in the new folder", option, file);
-    }
-  }
-  if (!arguments.key.empty() && fs::exists(arguments.key, error)) {
-    return fail(ErrorKind::usage, "--key {}: is there, and a key is not overwritten", arguments.key);
-  }
-  return {};
-}
-
 bool is_csv(const std::string& file) {
-  return fs::path(file).extension() == ".csv";
+  return std::filesystem::path(file).extension() == ".csv";
 }
 
-Status announce(const Arguments& arguments, Outputs& outputs) {
+// Whether both files can be written, before the long work.
+Status announce(const Arguments& arguments) {
+  Outputs outputs;
   if (!arguments.list.empty()) {
     TIDEMARK_TRY(is_csv(arguments.list) ? outputs.announce_csv("--list", arguments.list)
                                         : outputs.announce_json("--list", arguments.list));
@@ -75,82 +44,15 @@ Status announce(const Arguments& arguments, Outputs& outputs) {
   return outputs.announce_json("--key", arguments.key);
 }
 
-std::string list_as_csv(const imaging::Deidentified& result) {
-  std::string text = csv_line({"file", "attribute", "keyword", "change"});
-  for (const imaging::DeidentifiedFile& file : result.files) {
-    for (const imaging::ChangedAttribute& one : file.changes) {
-      text += csv_line({csv_text(file.name), csv_text(one.path), csv_text(one.keyword),
-                        std::string(imaging::kChangeNames[static_cast<std::size_t>(one.change)])});
-    }
-  }
-  return text;
-}
-
-std::string list_as_json(const imaging::Deidentified& result) {
-  Json list;
-  list["files"] = Json::array();
-  for (const imaging::DeidentifiedFile& file : result.files) {
-    Json changes = Json::array();
-    for (const imaging::ChangedAttribute& one : file.changes) {
-      changes.push_back({{"attribute", one.path},
-                         {"keyword", one.keyword},
-                         {"change", imaging::kChangeNames[static_cast<std::size_t>(one.change)]}});
-    }
-    list["files"].push_back({{"file", file.name}, {"changes", std::move(changes)}});
-  }
-  return to_text(list);
-}
-
-std::string key_text(const imaging::Deidentified& result) {
-  Json key;
-  key["patients"] = Json::array();
-  for (const auto& [old, pseudonym] : result.patients) {
-    key["patients"].push_back(
-        {{"old", old}, {"id", pseudonym.id}, {"name", pseudonym.name}, {"days", pseudonym.days}});
-  }
-  key["uids"] = Json::array();
-  for (const auto& [old, uid] : result.uids) key["uids"].push_back({{"old", old}, {"new", uid}});
-  key["files"] = Json::array();
-  for (const imaging::DeidentifiedFile& file : result.files) {
-    key["files"].push_back({{"old", file.source.string()}, {"new", file.name}});
-  }
-  return to_text(key);
-}
-
-// For the owner alone, before anything is in it.
-Status write_private(const fs::path& file, const std::string& text) {
-  std::error_code error;
-  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, error);
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  if (!error && out.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) return {};
-  return fail(ErrorKind::write, "{}: cannot write", file.string());
-}
-
-Status stage(const Arguments& arguments, const imaging::Deidentified& result, Outputs& outputs) {
-  if (!arguments.list.empty()) {
-    const std::string text = is_csv(arguments.list) ? list_as_csv(result) : list_as_json(result);
-    TIDEMARK_TRY(outputs.stage(arguments.list, [&](const fs::path& name) { return write_file(name, text); }));
-  }
-  if (arguments.key.empty()) return {};
-  return outputs.stage(arguments.key,
-                       [&](const fs::path& name) { return write_private(name, key_text(result)); });
-}
-
-Status run(Program& program, Arguments arguments) {
+Status run(Program& program, const Arguments& arguments) {
   Console& console = program.console;
-  Outputs outputs;
-  TIDEMARK_TRY(check_places(arguments));
-  TIDEMARK_TRY(announce(arguments, outputs));
-  arguments.options.list_changes = !arguments.list.empty();
+  const imaging::DeidentifyPlaces places{arguments.input, arguments.out, arguments.list, arguments.key};
+  TIDEMARK_TRY(imaging::check_places(places));
+  TIDEMARK_TRY(announce(arguments));
   const auto files = files_below(arguments.input, console.progress());
   if (!files) return pass_on(files);
-  auto result = imaging::deidentify(*files, arguments.out, arguments.options, console.progress());
+  const auto result = imaging::write_deidentified(*files, places, arguments.options, console.progress());
   if (!result) return pass_on(result);
-  TIDEMARK_TRY(stage(arguments, *result, outputs));
-  if (console.interrupted()) return cancelled_error();
-  // The key first: without it there is no way back from the folder.
-  TIDEMARK_TRY(outputs.commit());
-  TIDEMARK_TRY(result->folder.commit());
   console.say("Wrote      {}: {} files in {} series of {} patients", arguments.out, result->files.size(),
               result->series, result->patients.size());
   for (const std::string& file : {arguments.list, arguments.key}) {

@@ -12,7 +12,10 @@
 #include "core/json/json_field.h"
 #include "core/text_file.h"
 #include "document/measure_codes.h"
+#include "document/result_files.h"
+#include "imaging/results/key_images.h"
 #include "imaging/results/results.h"
+#include "renderer/sheet.h"
 
 namespace tidemark::cli {
 namespace {
@@ -33,6 +36,7 @@ constexpr const char* kExamples =
     "  tidemark-cli measure ct/ tumour.nii.gz\n"
     "  tidemark-cli measure ct/ labels.dcm --labels --image pet/ --csv measures.csv\n"
     "  tidemark-cli measure ct/ labels.dcm --labels --report report.dcm\n"
+    "  tidemark-cli measure ct/ labels.dcm --labels --key-images key.dcm --presentation outlines.dcm\n"
     "  tidemark-cli measure may/ may.dcm --labels --json > may.json\n"
     "  tidemark-cli measure june/ june.dcm --labels --before may.json      how much they changed\n";
 
@@ -45,6 +49,9 @@ struct MeasureOptions {
   std::string before;
   std::string csv;
   std::string report;
+  std::string key_images;
+  std::string presentation;
+  std::string note = "Segments where they are largest";
   bool labels = false;
 };
 
@@ -226,6 +233,42 @@ Status write_files(const std::vector<Row>& rows, const std::string& modality, co
   return outputs.commit();
 }
 
+// The images themselves stay where they are.
+Status stage_key_images(const imaging::LoadedSeries& study, const MeasureOptions& options, Outputs& outputs,
+                        const Progress& progress) {
+  if (options.key_images.empty()) return {};
+  const std::vector<std::filesystem::path> source = imaging::dicom_files_of(study.series);
+  if (source.empty()) {
+    return fail(ErrorKind::usage, "--key-images: {} is no DICOM series whose images could be named",
+                options.study.path);
+  }
+  const auto segments = document::read_labels(options.file, &study.volume.geometry, progress);
+  if (!segments) return pass_on(segments);
+  const WindowLevel window = renderer::window_of(study.volume);
+  const auto write = [&](const std::filesystem::path& selection, const std::filesystem::path& presentation) {
+    return imaging::write_key_images(*segments, source, window, options.note, {selection, presentation});
+  };
+  return outputs.stage(options.key_images, [&](const std::filesystem::path& selection) -> Status {
+    if (options.presentation.empty()) return write(selection, {});
+    return outputs.stage(options.presentation, [&](const std::filesystem::path& presentation) {
+      return write(selection, presentation);
+    });
+  });
+}
+
+Status announce(const MeasureOptions& options, Outputs& outputs) {
+  for (const auto& [option, file] :
+       {std::pair{"--key-images", options.key_images}, {"--presentation", options.presentation}}) {
+    if (file.empty()) continue;
+    TIDEMARK_TRY(outputs.announce_dicom(option, file));
+    TIDEMARK_TRY(outputs.spare(options.study.path));
+    TIDEMARK_TRY(outputs.spare(options.file));
+  }
+  if (!options.presentation.empty() && options.key_images.empty())
+    return fail(ErrorKind::usage, "--presentation needs --key-images, whose images it shows");
+  return {};
+}
+
 Status run(Program& program, const MeasureOptions& options) {
   Console& console = program.console;
   Outputs outputs;
@@ -241,6 +284,7 @@ Status run(Program& program, const MeasureOptions& options) {
     if (!options.labels || imaging::result_form_of(options.file) != imaging::ResultForm::segmentation)
       return fail(ErrorKind::usage, "--report needs --labels, and a DICOM segmentation that it can refer to");
   }
+  TIDEMARK_TRY(announce(options, outputs));
   std::vector<Earlier> earlier;
   if (!options.before.empty()) {
     auto read = read_earlier(options.before);
@@ -249,6 +293,7 @@ Status run(Program& program, const MeasureOptions& options) {
   }
   auto study = load_study(options.study, console.progress());
   if (!study) return pass_on(study);
+  TIDEMARK_TRY(stage_key_images(*study, options, outputs, console.progress()));
   const std::string modality = study->volume.modality;
   std::optional<Geometry> grid = study->volume.geometry;
   const auto regions = read_regions(options.file, options.labels, grid, console);
@@ -268,7 +313,7 @@ Status run(Program& program, const MeasureOptions& options) {
   }
   if (!options.before.empty()) result["change"] = changes_since(earlier, *rows, console);
   TIDEMARK_TRY(write_files(*rows, modality, options, outputs));
-  for (const std::string& file : {options.csv, options.report}) {
+  for (const std::string& file : {options.csv, options.report, options.key_images, options.presentation}) {
     if (!file.empty()) console.say("Wrote      {}", file);
   }
   console.result(result);
@@ -303,6 +348,17 @@ void add_measure(CLI::App& app, Program& program) {
       .add_option("--report", options->report,
                   "A DICOM structured report (TID 1500) about the segments of a DICOM segmentation")
       ->type_name("FILE.dcm");
+  command
+      .add_option("--key-images", options->key_images,
+                  "A DICOM key object selection: of each region the image in which it is largest")
+      ->type_name("FILE.dcm");
+  command
+      .add_option("--presentation", options->presentation,
+                  "A DICOM presentation state of the key images: the study's window, and outlines")
+      ->type_name("FILE.dcm");
+  command.add_option("--note", options->note, "What the key object selection says of its images")
+      ->capture_default_str()
+      ->type_name("TEXT");
   command.add_option("--csv", options->csv, "A table, a line for each region and image")
       ->type_name("FILE.csv");
 }

@@ -154,6 +154,18 @@ std::vector<Contour> join_holes(std::vector<Contour> loops) {
 
 }  // namespace
 
+std::vector<Contour> contours_of(const Segment& segment, const Geometry& geometry, std::int64_t k) {
+  const auto found = segment.slices.find(k);
+  if (found == segment.slices.end()) return {};
+  return trace_contours(geometry.size.x, geometry.size.y, [&](std::int64_t i, std::int64_t j) {
+    const bool inside = found->second[static_cast<std::size_t>(i + geometry.size.x * j)] != 0;
+    if (!segment.phi) return inside ? 1.0 : -1.0;
+    const double phi = segment.phi->value(geometry.offset({i, j, k}));
+    // The voxels decide; phi says where between them.
+    return inside ? std::max(phi, 1e-6) : std::min(phi, -1e-6);
+  });
+}
+
 double signed_area(const Contour& contour) {
   double twice = 0.0;
   for (std::size_t n = 0; n < contour.size(); ++n) {

@@ -6,6 +6,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "imaging/results/segments.h"
+
 namespace tidemark::imaging {
 
 // In voxel coordinates (i, j), whole numbers at voxel centres; the last point joins the first.
@@ -22,6 +24,10 @@ using Contour = std::vector<glm::dvec2>;
 // A voxel's centre is inside the contours exactly when its value is > 0, with some distance to spare.
 std::vector<Contour> trace_contours(std::int64_t columns, std::int64_t rows,
                                     const std::function<double(std::int64_t, std::int64_t)>& value);
+
+// Of a slice of a segment: where its phi is 0, else half way between voxels inside and outside. None where it
+// has no voxel.
+std::vector<Contour> contours_of(const Segment& segment, const Geometry& geometry, std::int64_t k);
 
 // In voxels; holes of a contour taken off.
 double signed_area(const Contour& contour);

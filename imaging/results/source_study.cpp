@@ -65,7 +65,7 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
     const SliceHeader& first = slices->front();
     if (first.sop_class_uid.empty() || first.sop_instance_uid.empty()) continue;
     const std::size_t image = study.images.size();
-    study.images.push_back({first.sop_class_uid, first.sop_instance_uid});
+    study.images.push_back({first.sop_class_uid, first.sop_instance_uid, file});
     // An image that is all there is needs no place among others.
     const bool is_alone = files.size() == 1 && slices->size() == 1 && geometry.size.z == 1;
     for (const SliceHeader& slice : *slices) {

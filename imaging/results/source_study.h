@@ -14,6 +14,7 @@ namespace tidemark::imaging {
 struct SourceImage {
   std::string sop_class_uid;
   std::string sop_instance_uid;
+  std::filesystem::path file;
 };
 
 // The image that shows a slice, and of an image of several frames those at its place, from 1: one, or as many

@@ -34,18 +34,6 @@ std::string coordinate(double mm, int digits) {
   return text == "-0" ? "0" : text;
 }
 
-// phi in slice k where there is one, else 1 inside and -1 outside.
-std::vector<Contour> contours_of(const Segment& segment, const Geometry& geometry, std::int64_t k) {
-  const auto& slice = segment.slices.at(k);
-  return trace_contours(geometry.size.x, geometry.size.y, [&](std::int64_t i, std::int64_t j) {
-    const bool inside = slice[static_cast<std::size_t>(i + geometry.size.x * j)] != 0;
-    if (!segment.phi) return inside ? 1.0 : -1.0;
-    const double phi = segment.phi->value(geometry.offset({i, j, k}));
-    // The voxels decide; phi says where between them.
-    return inside ? std::max(phi, 1e-6) : std::min(phi, -1e-6);
-  });
-}
-
 // One writing of one file.
 class StructureSetWriter {
  public:

@@ -128,13 +128,14 @@ class CliDeidentifyTest : public QObject {
     row("no folder", "series", 2, "--out");
     row("nowhere", "none --out new", 3, "none: no such file or folder");
     row("no DICOM", "words --out new", 3, "there is no DICOM file");
-    row("the same folder", "series --out series", 2, "--out series: is INPUT, lies in it or holds it");
+    row("the same folder", "series --out series", 2,
+        "series: is the source of the copies, lies in it or holds it");
     row("in the input", "series --out series/new", 2, "lies in it");
     row("around the input", "series --out .", 2, "holds it");
-    row("not empty", "series --out words", 2, "--out words: is there and not empty");
+    row("not empty", "series --out words", 2, "words: is there and not empty");
     row("a list in the new folder", "series --out new --list new/list.json", 2,
-        "--list new/list.json: lies in");
-    row("a key in the input", "series --out new --key series/key.json", 2, "--key series/key.json: lies in");
+        "new/list.json: lies among the copies");
+    row("a key in the input", "series --out new --key series/key.json", 2, "series/key.json: lies among");
     row("a key that is there", "series --out new --key words/words.json", 2, "a key is not overwritten");
     row("a list without a form", "series --out new --list list.txt", 2, "must end in .json");
     row("no days", "series --out new --shift-dates 1.5", 2, "'1.5' is neither 'random' nor a number of days");

@@ -129,6 +129,8 @@ void Actions::make_files() {
                        tr("Write all steps and edits, to be repeated by tidemark-cli replay"));
   send_result = make("send-result", "server", tr("Sen&d segmentation to a server…"), {}, true,
                      tr("Send labels or surface to a PACS, as new series of the study"));
+  deidentify = make("deidentify", nullptr, tr("Anon&ymous copies…"), {}, false,
+                    tr("Copy DICOM files without what tells who the patient is"));
   close = make("close", "close", tr("&Close study"), QKeySequence("Ctrl+W"), true);
   quit = make("quit", nullptr, tr("&Quit"), QKeySequence("Ctrl+Q"), false);
   undo = make("undo", "undo", tr("&Undo"), QKeySequence("Ctrl+Z"), true);

@@ -53,6 +53,7 @@ class Actions : public QObject {
   QAction* export_report;
   QAction* export_recipe;
   QAction* send_result;
+  QAction* deidentify;
   QAction* close;
   QAction* quit;
   // Edit.

@@ -11,6 +11,7 @@
 #include "ui/main/panel_docks.h"
 #include "ui/main/status_bar.h"
 #include "ui/opening/loading_view.h"
+#include "ui/results/deidentify_dialog.h"
 #include "ui/results/send_result_dialog.h"
 #include "ui/results/write_result_dialog.h"
 
@@ -52,6 +53,20 @@ CaseResults::CaseResults(MainWindow& window)
   with_case(actions.send_result, [this, name = actions.send_result->objectName()](CaseWindow& of) {
     new_dialog<SendResultDialog>(of, name, imaging::pacs_configuration_file());
   });
+  connect(actions.deidentify, &QAction::triggered, this, &CaseResults::make_anonymous_copies);
+}
+
+// Of no case: it goes on when the case is closed.
+void CaseResults::make_anonymous_copies() {
+  auto* dialog = window_.findChild<DeidentifyDialog*>();
+  if (!dialog) {
+    CaseWindow* active = window_.active_case();
+    dialog = new DeidentifyDialog(active ? &active->proxy().study() : nullptr, &window_);
+    connect(dialog, &DeidentifyDialog::open, &window_, &MainWindow::open);
+    dialog->show();
+  }
+  dialog->raise();
+  dialog->activateWindow();
 }
 
 template <class Dialog, class... Arguments>

@@ -28,6 +28,7 @@ class CaseResults : public QObject {
 
  private:
   void connect_jobs();
+  void make_anonymous_copies();
   void read(CaseWindow& window, const QString& file, bool only_results);
   void read_next();
   void end_reading(const QString& problem = {});

@@ -40,7 +40,7 @@ void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent)
   exports->addSeparator();
   exports->addActions({actions.export_picture, actions.export_film, actions.export_statistics,
                        actions.export_report, actions.export_recipe});
-  file->addAction(actions.send_result);
+  file->addActions({actions.send_result, actions.deidentify});
   file->addSeparator();
   file->addActions({actions.close, actions.quit});
 }

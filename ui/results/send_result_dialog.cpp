@@ -3,6 +3,7 @@
 #include <QGridLayout>
 
 #include "engine/message_text.h"
+#include "imaging/results/key_images.h"
 #include "ui/look/theme.h"
 
 namespace tidemark::ui {
@@ -13,6 +14,7 @@ struct Wanted {
   std::vector<imaging::ResultForm> forms;
   std::shared_ptr<const Volume>
       measured;  // its values go into a report about the segmentation; null: no report
+  std::optional<WindowLevel> key_images;  // shown with that window; unset: none
 };
 
 // Each form as a file of its own in that folder, and the report.
@@ -25,7 +27,8 @@ Result<std::vector<std::filesystem::path>> write_forms(const document::SessionCo
   if (!segments) return pass_on(segments);
   std::vector<std::filesystem::path> files;
   std::filesystem::path segmentation;
-  const auto count = static_cast<int>(wanted.forms.size()) + (wanted.measured ? 1 : 0);
+  const auto count =
+      static_cast<int>(wanted.forms.size()) + (wanted.measured ? 1 : 0) + (wanted.key_images ? 1 : 0);
   for (const imaging::ResultForm form : wanted.forms) {
     const auto number = static_cast<int>(files.size());
     files.push_back(folder / fmt::format("{}.dcm", number + 1));
@@ -34,11 +37,20 @@ Result<std::vector<std::filesystem::path>> write_forms(const document::SessionCo
         document::write_result(*segments, form, source, files.back(), progress.part(number, count));
     if (!written) return pass_on(written);
   }
-  if (!wanted.measured) return files;
-  files.push_back(folder / fmt::format("{}.dcm", count));
-  const Status written = document::write_measurements(*segments, wanted.measured, segmentation, files.back(),
-                                                      progress.part(count - 1, count));
-  if (!written) return pass_on(written);
+  if (wanted.measured) {
+    const auto number = static_cast<int>(files.size());
+    files.push_back(folder / "report.dcm");
+    const Status written = document::write_measurements(*segments, wanted.measured, segmentation,
+                                                        files.back(), progress.part(number, count));
+    if (!written) return pass_on(written);
+  }
+  if (wanted.key_images) {
+    const imaging::KeyImageFiles key{folder / "key.dcm", folder / "outlines.dcm"};
+    const Status written = imaging::write_key_images(*segments, source, *wanted.key_images,
+                                                     "Segments where they are largest", key);
+    if (!written) return pass_on(written);
+    files.insert(files.end(), {key.presentation, key.selection});
+  }
   return files;
 }
 
@@ -49,7 +61,8 @@ SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path ser
       servers_(new ServerChoice(std::move(servers), tr("The server that gets the result"), this)),
       segmentation_(new QCheckBox(tr("&Segmentation (SEG)"), this)),
       contours_(new QCheckBox(tr("Contours (&RT structure set)"), this)),
-      report_(new QCheckBox(tr("&Measurements (SR)"), this)) {
+      report_(new QCheckBox(tr("&Measurements (SR)"), this)),
+      key_images_(new QCheckBox(tr("&Key images (KO, with outlines)"), this)) {
   build(true, make_target(), source_note(proxy().study()), tr("Se&nd"),
         tr("Sends the case in its present state"));
   connect(&client_, &engine::PacsClient::progressed, &work(), &WorkLine::set_progress);
@@ -57,7 +70,7 @@ SendResultDialog::SendResultDialog(CaseWindow& window, std::filesystem::path ser
   connect(&client_, &engine::PacsClient::cancelled, this,
           [this] { rest(tr("Cancelled. What the server has taken by then stays there.")); });
   connect(&client_, &engine::PacsClient::sent, this, [this](const auto& sent) { tell(*sent); });
-  for (QCheckBox* form : {segmentation_, contours_})
+  for (QCheckBox* form : {segmentation_, contours_, key_images_})
     connect(form, &QCheckBox::toggled, this, &SendResultDialog::follow);
   connect(segmentation_, &QCheckBox::toggled, report_, &QCheckBox::setEnabled);
   connect(servers_, &ServerChoice::chosen, this, &SendResultDialog::follow);
@@ -78,6 +91,10 @@ QWidget* SendResultDialog::make_target() {
       tr("A structured report with the volume and the diameters of each segment, and the values inside. It "
          "refers "
          "to the segmentation."));
+  key_images_->setToolTip(
+      tr("Names the image in which each segment is largest, and shows it with the window of the views and "
+         "the segment's outline"));
+  key_images_->setEnabled(!proxy().study().dicom_files.empty());
   auto* form = new QLabel(tr("As"), target);
   auto* label = new QLabel(tr("&To"), target);
   label->setBuddy(servers_);
@@ -85,14 +102,16 @@ QWidget* SendResultDialog::make_target() {
   grid->addWidget(segmentation_, 0, 1);
   grid->addWidget(contours_, 1, 1);
   grid->addWidget(report_, 2, 1);
-  grid->addWidget(label, 3, 0);
-  grid->addWidget(servers_, 3, 1);
+  grid->addWidget(key_images_, 3, 1);
+  grid->addWidget(label, 4, 0);
+  grid->addWidget(servers_, 4, 1);
   grid->setColumnStretch(1, 1);
   return target;
 }
 
 bool SendResultDialog::ready() const {
-  return servers_->server() != nullptr && (segmentation_->isChecked() || contours_->isChecked());
+  return servers_->server() != nullptr &&
+         (segmentation_->isChecked() || contours_->isChecked() || key_images_->isChecked());
 }
 
 void SendResultDialog::begin(const Snapshot& snapshot) {
@@ -103,6 +122,7 @@ void SendResultDialog::begin(const Snapshot& snapshot) {
   if (segmentation_->isChecked()) wanted.forms.push_back(imaging::ResultForm::segmentation);
   if (contours_->isChecked()) wanted.forms.push_back(imaging::ResultForm::structure_set);
   if (segmentation_->isChecked() && report_->isChecked()) wanted.measured = proxy().study().volume;
+  if (key_images_->isChecked()) wanted.key_images = proxy().display().settings().window;
   client_.send(server, [snapshot, wanted, what = content(), source = proxy().study().dicom_files](
                            const std::filesystem::path& folder, const Progress& progress) {
     return write_forms(snapshot->contents, what, wanted, source, folder, progress);

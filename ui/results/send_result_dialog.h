@@ -30,7 +30,8 @@ class SendResultDialog : public ResultDialog {
   ServerChoice* servers_;
   QCheckBox* segmentation_;
   QCheckBox* contours_;
-  QCheckBox* report_;  // about the segmentation
+  QCheckBox* report_;      // about the segmentation
+  QCheckBox* key_images_;  // with their presentation state
 };
 
 }  // namespace tidemark::ui

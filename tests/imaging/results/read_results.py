@@ -155,10 +155,48 @@ def report(result, images):
     }
 
 
+def selection(result, images):
+    """What a key object selection names."""
+    named = [item.ReferencedSOPSequence[0] for item in items(result) if item.ValueType == "IMAGE"]
+    states = [one.ReferencedSOPSequence[0].ReferencedSOPInstanceUID for one in named if "ReferencedSOPSequence" in one]
+    return {
+        "title": meaning(result),
+        "note": next(item.TextValue for item in items(result) if item.ValueType == "TEXT"),
+        "known": all(one.ReferencedSOPInstanceUID in images for one in named),
+        "images": len(named),
+        "states": states,
+    }
+
+
+def presentation(result, images):
+    """What a presentation state shows, with outlines in mm of the patient."""
+    outlines, names = [], []
+    for annotation in result.GraphicAnnotationSequence:
+        image = images[annotation.ReferencedImageSequence[0].ReferencedSOPInstanceUID]
+        corner = numpy.array(image.ImagePositionPatient, float)
+        orientation = numpy.array(image.ImageOrientationPatient, float)
+        rows, columns = image.PixelSpacing
+        for line in annotation.GraphicObjectSequence:
+            pixels = numpy.array(line.GraphicData, float).reshape(-1, 2) - 1.0
+            mm = corner + pixels[:, :1] * columns * orientation[:3] + pixels[:, 1:] * rows * orientation[3:]
+            outlines.append(mm.tolist())
+        names += [text.UnformattedTextValue for text in annotation.get("TextObjectSequence", [])]
+    values = result.SoftcopyVOILUTSequence[0]
+    area = result.DisplayedAreaSelectionSequence[0]
+    return {
+        "instance": result.SOPInstanceUID,
+        "window": [float(values.WindowCenter), float(values.WindowWidth)],
+        "area": [*area.DisplayedAreaTopLeftHandCorner, *area.DisplayedAreaBottomRightHandCorner],
+        "layers": len(result.GraphicLayerSequence),
+        "outlines": outlines,
+        "names": names,
+    }
+
+
 def main():
     result = pydicom.dcmread(sys.argv[1])
     images = images_of(sys.argv[2])
-    read = {"SEG": segmentation, "SR": report}.get(result.Modality, structure_set)
+    read = {"SEG": segmentation, "SR": report, "KO": selection, "PR": presentation}.get(result.Modality, structure_set)
     found = read(result, images)
     json.dump(common(result, images) | found, sys.stdout)
 

@@ -1,6 +1,9 @@
 #include "tests/ui/main/results_desktop.h"
 
+#include <QAbstractSpinBox>
+#include <QComboBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <algorithm>
 #include <glm/geometric.hpp>
 
@@ -43,6 +46,21 @@ bool says(QWidget& dialog, const QString& text) {
   const auto labels = dialog.findChildren<QLabel*>();
   return std::any_of(labels.begin(), labels.end(),
                      [&](const QLabel* label) { return label->text().contains(text); });
+}
+
+bool is_explained(QWidget& dialog) {
+  for (const QWidget* widget : dialog.findChildren<QWidget*>()) {
+    const auto* button = qobject_cast<const QAbstractButton*>(widget);
+    const bool is_control =
+        button || qobject_cast<const QComboBox*>(widget) || qobject_cast<const QLineEdit*>(widget);
+    const bool is_of_number =
+        qobject_cast<const QAbstractSpinBox*>(widget->parentWidget());  // which has a tip
+    if (!is_control || is_of_number || (button && button->text().endsWith("Close"))) continue;
+    if (!widget->toolTip().isEmpty() && (button || !widget->accessibleName().isEmpty())) continue;
+    qWarning("%s “%s”", widget->metaObject()->className(), button ? qPrintable(button->text()) : "");
+    return false;
+  }
+  return true;
 }
 
 void picture(QWidget& widget, const QString& name) {

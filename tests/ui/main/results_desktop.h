@@ -22,6 +22,8 @@ void write_balls(const std::filesystem::path& folder);
 QPushButton* button(QWidget& in, const QString& text);
 // Whether a label in it has this text.
 bool says(QWidget& dialog, const QString& text);
+// Whether every control in it has a tip, and a name or a text.
+bool is_explained(QWidget& dialog);
 // In both themes, into the folder of TIDEMARK_SCREENSHOTS.
 void picture(QWidget& widget, const QString& name);
 

@@ -21,20 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Every control has a tip, and a name or a text.
-bool is_explained(QWidget& dialog) {
-  for (const QWidget* widget : dialog.findChildren<QWidget*>()) {
-    const auto* button = qobject_cast<const QAbstractButton*>(widget);
-    const bool is_control =
-        button || qobject_cast<const QComboBox*>(widget) || qobject_cast<const QLineEdit*>(widget);
-    if (!is_control || (button && button->text().endsWith("Close"))) continue;
-    if (!widget->toolTip().isEmpty() && (button || !widget->accessibleName().isEmpty())) continue;
-    qWarning("%s “%s”", widget->metaObject()->className(), button ? qPrintable(button->text()) : "");
-    return false;
-  }
-  return true;
-}
-
 Mask mask_of(const std::vector<std::uint8_t>& voxels, std::uint8_t id, const Geometry& geometry) {
   Mask mask{geometry, voxels};
   for (std::uint8_t& voxel : mask.voxels) voxel = voxel == id ? 1 : 0;
@@ -275,7 +261,7 @@ void ResultsStoryTest::labels_are_sent_to_a_server() {
   picture(dialog, "send");
   QVERIFY(button(dialog, "Send")->isEnabled());
   QTest::mouseClick(button(dialog, "Send"), Qt::LeftButton);
-  QVERIFY2(Desktop::wait_for([&] { return says(dialog, "as 3 new series of this study"); }, kPatience),
+  QVERIFY2(Desktop::wait_for([&] { return says(dialog, "as 5 new series of this study"); }, kPatience),
            qPrintable(dialog.findChild<ui::WorkLine*>()->text()));
   picture(dialog, "sent");
 
@@ -283,7 +269,7 @@ void ResultsStoryTest::labels_are_sent_to_a_server() {
   QCOMPARE(failure(studies), QString());
   QCOMPARE(studies->entries.size(), std::size_t{1});
   QCOMPARE(studies->entries.front().patient_id, std::string("P1"));
-  for (const char* modality : {"SEG", "RTSTRUCT", "SR"}) {
+  for (const char* modality : {"SEG", "RTSTRUCT", "SR", "KO", "PR"}) {
     const auto series =
         imaging::find_pacs_series(archive->server(), {studies->entries.front().uid, modality, {}});
     QCOMPARE(failure(series), QString());

@@ -107,7 +107,8 @@ void ScaleStoryTest::panels_fit_into_their_column() {
   Desktop desktop(solver::ExecutorKind::host, {1100, 760});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  QCOMPARE(panels_too_wide(desktop, QString::number(desktop.window().devicePixelRatioF())).join("; "), QString());
+  QCOMPARE(panels_too_wide(desktop, QString::number(desktop.window().devicePixelRatioF())).join("; "),
+           QString());
 }
 
 void ScaleStoryTest::the_icon_of_a_case_is_whole() {
