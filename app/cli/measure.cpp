@@ -51,7 +51,7 @@ struct MeasureOptions {
   std::string report;
   std::string key_images;
   std::string presentation;
-  std::string note = "Segments where they are largest";
+  std::string note = imaging::kKeyImageNote;
   bool labels = false;
 };
 
@@ -244,9 +244,10 @@ Status stage_key_images(const imaging::LoadedSeries& study, const MeasureOptions
   }
   const auto segments = document::read_labels(options.file, &study.volume.geometry, progress);
   if (!segments) return pass_on(segments);
-  const WindowLevel window = renderer::window_of(study.volume);
+  const auto window = imaging::window_of_files(study.volume, renderer::window_of(study.volume));
   const auto write = [&](const std::filesystem::path& selection, const std::filesystem::path& presentation) {
-    return imaging::write_key_images(*segments, source, window, options.note, {selection, presentation});
+    return imaging::write_key_images(*segments, source, window, options.note, {selection, presentation},
+                                     progress);
   };
   return outputs.stage(options.key_images, [&](const std::filesystem::path& selection) -> Status {
     if (options.presentation.empty()) return write(selection, {});
@@ -264,6 +265,8 @@ Status announce(const MeasureOptions& options, Outputs& outputs) {
     TIDEMARK_TRY(outputs.spare(options.study.path));
     TIDEMARK_TRY(outputs.spare(options.file));
   }
+  if (!options.key_images.empty() && !options.labels)
+    return fail(ErrorKind::usage, "--key-images needs --labels: each label has an image of its own");
   if (!options.presentation.empty() && options.key_images.empty())
     return fail(ErrorKind::usage, "--presentation needs --key-images, whose images it shows");
   return {};

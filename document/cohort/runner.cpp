@@ -117,7 +117,7 @@ class Runner {
   std::vector<Worker> idle_;
   std::list<Job> complete_;  // to be published
   Stopwatch since_refresh_;
-  Status out_of_reach_;  // failed: a case needs what is not there now, and the run begins no others
+  std::optional<Error> out_of_reach_;  // what a case needs and cannot get now: the run begins no others
   RunTally tally_;
 };
 
@@ -254,7 +254,7 @@ Status Runner::wait_for_some() {
     }
     computing_.erase(present);  // given back
     if (collected.error().kind != ErrorKind::input) return collected;
-    out_of_reach_ = std::move(collected);
+    out_of_reach_ = std::move(collected.error());
   }
   return {};
 }
@@ -363,8 +363,8 @@ void Runner::report() {
 
 Status Runner::go_on() {
   report();
-  while ((out_of_reach_ && next_ < rows_.size()) || !computing_.empty()) {
-    if (out_of_reach_) {
+  while ((!out_of_reach_ && next_ < rows_.size()) || !computing_.empty()) {
+    if (!out_of_reach_) {
       TIDEMARK_TRY(start_some());
     }
     TIDEMARK_TRY(wait_for_some());
@@ -373,7 +373,8 @@ Status Runner::go_on() {
     refresh_leases();
     TIDEMARK_TRY(publish_if_due(false));
   }
-  return out_of_reach_;
+  if (out_of_reach_) return tl::unexpected(*out_of_reach_);
+  return {};
 }
 
 Result<RunTally> Runner::run() {

@@ -5,6 +5,7 @@
 #include <map>
 #include <system_error>
 #include <tuple>
+#include <utility>
 
 #include "core/csv.h"
 #include "core/json/json.h"
@@ -125,26 +126,33 @@ Result<Deidentified> write_deidentified(const std::vector<fs::path>& files, cons
   auto result = deidentify(files, places.folder, options, progress);
   if (!result) return result;
   // The key first: without it there is no way back from the folder.
-  std::vector<AtomicFile> records;
-  const auto add = [&](Result<AtomicFile> record) -> Status {
+  std::vector<std::pair<AtomicFile, fs::path>> records;
+  const auto add = [&](const fs::path& file, const std::string& text, Readers readers) -> Status {
+    auto record = staged(file, text, readers);
     if (!record) return pass_on(record);
-    records.push_back(std::move(*record));
+    records.emplace_back(std::move(*record), file);
     return {};
   };
   if (!places.key.empty()) {
-    TIDEMARK_TRY(add(staged(places.key, key_text(*result), Readers::owner)));
+    TIDEMARK_TRY(add(places.key, key_text(*result), Readers::owner));
   }
   if (!places.list.empty()) {
     const bool is_table = places.list.extension() == ".csv";
-    TIDEMARK_TRY(
-        add(staged(places.list, is_table ? list_as_csv(*result) : list_as_json(*result), Readers::all)));
+    TIDEMARK_TRY(add(places.list, is_table ? list_as_csv(*result) : list_as_json(*result), Readers::all));
   }
   if (progress.cancelled()) return cancelled_error();
-  for (AtomicFile& record : records) {
-    TIDEMARK_TRY(record.commit());
+  TIDEMARK_TRY(check_places(places));  // minutes have passed
+  Status committed;
+  std::vector<fs::path> written;
+  for (std::size_t i = 0; i < records.size() && committed; ++i) {
+    committed = records[i].first.commit();
+    if (committed) written.push_back(records[i].second);
   }
-  TIDEMARK_TRY(result->folder.commit());
-  return result;
+  if (committed) committed = result->folder.commit();
+  if (committed) return result;
+  std::error_code ignored;
+  for (const fs::path& file : written) fs::remove(file, ignored);
+  return pass_on(committed);
 }
 
 std::vector<ChangeTotal> change_totals(const Deidentified& result) {

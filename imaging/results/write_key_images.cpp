@@ -2,10 +2,16 @@
 #include <dcmtk/dcmsr/dsrdoc.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "imaging/dicom/dicom_values.h"
+#include "imaging/dicom/header_reader.h"
 #include "imaging/guard/guarded.h"
 #include "imaging/results/contours.h"
 #include "imaging/results/key_images.h"
@@ -24,37 +30,40 @@ constexpr std::size_t kMostPoints = 8000;
 // A key image as its file has it.
 struct KeyImage {
   std::int64_t k = 0;
-  SourceImage image;
-  std::vector<std::uint16_t> frames;
+  std::vector<std::uint16_t> frames;  // from 1; none of an image of one frame
+  SliceHeader header;                 // of the first of them
+
+  // Whether it says where its pixels lie in the patient; several slices side by side have no one place.
+  [[nodiscard]] bool has_place() const {
+    return header.position_mm && header.orientation && header.pixel_spacing_mm && header.tiles == 1;
+  }
+  // Column and row, from 1 at the middle of the first pixel (PS3.3 C.10.5.1.2); it has a place.
+  [[nodiscard]] glm::dvec2 pixel_at(glm::dvec3 place_mm) const {
+    const glm::dvec3 way = place_mm - *header.position_mm;
+    const auto& [along_row, along_column] = *header.orientation;
+    return glm::dvec2(glm::dot(way, along_row), glm::dot(way, along_column)) / *header.pixel_spacing_mm + 1.0;
+  }
 };
 
-// What all key images share.
-struct Display {
-  std::uint16_t rows = 0;
-  std::uint16_t columns = 0;
-  std::string spacing;  // row\column, mm; empty: not known
-  std::string slope;    // empty: no Modality LUT
-  std::string intercept;
-  std::string rescale_type;
-  bool inverse = false;  // MONOCHROME1
+Result<KeyImage> read_key_image(const SourceImage& image, std::int64_t k,
+                                const std::vector<std::uint16_t>& frames) {
+  auto slices = read_slice_headers(image.file);
+  if (!slices) return tl::unexpected<Error>(slices.error());
+  const std::int64_t frame = frames.empty() ? 0 : frames.front() - 1;
+  const auto found = std::find_if(slices->begin(), slices->end(),
+                                  [&](const SliceHeader& slice) { return slice.frame == frame; });
+  if (found == slices->end())
+    return fail(ErrorKind::input, "{}: has no frame {}", image.file.string(), frame + 1);
+  return KeyImage{k, frames, std::move(*found)};
+}
 
-  bool operator==(const Display&) const = default;
-};
-
-Result<Display> display_of(const fs::path& file) {
-  constexpr DicomTag kPixelData{0x7fe0, 0x0010};
-  auto object = load_object(file, kPixelData);
-  if (!object) return pass_on(object);
-  DcmDataset& dataset = object->dataset();
-  Display display;
-  dataset.findAndGetUint16(DCM_Rows, display.rows);
-  dataset.findAndGetUint16(DCM_Columns, display.columns);
-  display.spacing = element_text(dataset, DCM_PixelSpacing);
-  display.slope = element_text(dataset, DCM_RescaleSlope);
-  display.intercept = element_text(dataset, DCM_RescaleIntercept);
-  display.rescale_type = element_text(dataset, DCM_RescaleType);
-  display.inverse = element_text(dataset, DCM_PhotometricInterpretation) == "MONOCHROME1";
-  return display;
+// Whether one presentation state can show both.
+bool look_alike(const SliceHeader& a, const SliceHeader& b) {
+  const auto look = [](const SliceHeader& one) {
+    return std::tie(one.frame_rows, one.frame_columns, one.pixel_spacing_mm, one.slope, one.intercept,
+                    one.quantity.rescale_type, one.is_monochrome1);
+  };
+  return look(a) == look(b);
 }
 
 class KeyImageWriter {
@@ -62,17 +71,18 @@ class KeyImageWriter {
   KeyImageWriter(const Segments& segments, SourceFiles source, const KeyImageFiles& files)
       : segments_(segments), source_(source), files_(files) {}
 
-  Status write(const WindowLevel& window, const std::string& note);
+  Status write(const std::optional<WindowLevel>& window, const std::string& note, const Progress& progress);
 
  private:
-  Status find_images();
-  Status write_presentation(const WindowLevel& window);
+  Status find_images(const Progress& progress);
+  Status write_presentation(const std::optional<WindowLevel>& window);
   Status write_selection(const std::string& note);
   // Series and equipment of a new object in the study.
   void identify(DcmDataset& dataset, const char* modality, const char* number, const char* description);
   void refer_to_images(DcmItem& item);
+  void refer(DcmItem& item, const KeyImage& image, const std::vector<std::uint16_t>& frames);
   void annotate(DcmDataset& dataset, const KeyImage& image);
-  void draw(DcmItem& annotation, const Contour& contour);
+  void draw(DcmItem& annotation, const std::vector<glm::dvec2>& outline);
   void put(DcmItem& item, const DcmTagKey& key, const std::string& text) {
     failure_ << item.putAndInsertString(DcmTag(key), text.c_str());
   }
@@ -94,37 +104,41 @@ class KeyImageWriter {
   const KeyImageFiles& files_;
   SourceStudy study_;
   std::vector<KeyImage> images_;
-  Display display_;
   std::string presentation_uid_;  // empty: none
   std::string presentation_series_uid_;
   FirstFailure failure_;
   DcmItem nowhere_;  // takes what has no place after a failure
 };
 
-Status KeyImageWriter::find_images() {
+Status KeyImageWriter::find_images(const Progress& progress) {
   auto study = source_study(source_, segments_.geometry);
   if (!study) return pass_on(study);
   study_ = std::move(*study);
-  for (const std::int64_t k : key_slices(segments_)) {
-    const auto& place = study_.places[static_cast<std::size_t>(k)];
-    if (!place) {
-      return fail(ErrorKind::input, "{}: no image lies at slice {}, which would be a key image",
-                  source_.front().parent_path().string(), k + 1);
+  const auto has_image = [&](std::int64_t k) {
+    return study_.places[static_cast<std::size_t>(k)].has_value();
+  };
+  for (const std::int64_t k : key_slices(segments_, has_image)) {
+    if (progress.cancelled()) return cancelled_error();
+    const SourcePlace& place = *study_.places[static_cast<std::size_t>(k)];
+    const SourceImage& image = study_.images[place.image];
+    auto found = read_key_image(image, k, place.frames);
+    if (!found) return pass_on(found);
+    images_.push_back(std::move(*found));
+    if (files_.presentation.empty()) continue;
+    if (!images_.back().has_place()) {
+      return fail(ErrorKind::input, "{}: does not say where its pixels lie: no outline can be drawn on it",
+                  image.file.string());
     }
-    const SourceImage& image = study_.images[place->image];
-    images_.push_back({k, image, place->frames});
-    const auto display = display_of(image.file);
-    if (!display) return pass_on(display);
-    if (images_.size() > 1 && !(display_ == *display) && !files_.presentation.empty()) {
+    if (!look_alike(images_.front().header, images_.back().header)) {
       return fail(
           ErrorKind::input,
           "{}: its size, spacing or rescaling differs from that of other key images: one presentation "
           "state cannot show them",
           image.file.string());
     }
-    display_ = *display;
   }
-  if (images_.empty()) return fail(ErrorKind::input, "no segment has a voxel, and there are no key images");
+  if (images_.empty())
+    return fail(ErrorKind::input, "no image shows a voxel of a segment: there are no key images");
   return {};
 }
 
@@ -135,7 +149,7 @@ void KeyImageWriter::identify(DcmDataset& dataset, const char* modality, const c
   put(dataset, DCM_SpecificCharacterSet, "ISO_IR 192");
   for (const DcmTagKey& key :
        {DCM_PatientName, DCM_PatientID, DCM_PatientBirthDate, DCM_PatientSex, DCM_StudyDate, DCM_StudyTime,
-        DCM_StudyID, DCM_AccessionNumber, DCM_ReferringPhysicianName})
+        DCM_StudyID, DCM_StudyDescription, DCM_AccessionNumber, DCM_ReferringPhysicianName})
     put(dataset, key, element_text(from, key));
   put(dataset, DCM_StudyInstanceUID, study_.study_uid);
   put(dataset, DCM_SeriesInstanceUID, make_uid());
@@ -151,22 +165,31 @@ void KeyImageWriter::identify(DcmDataset& dataset, const char* modality, const c
   put(dataset, DCM_InstanceNumber, "1");
 }
 
-void refer(DcmItem& item, const KeyImage& image, FirstFailure& failure) {
-  failure << item.putAndInsertString(DCM_ReferencedSOPClassUID, image.image.sop_class_uid.c_str());
-  failure << item.putAndInsertString(DCM_ReferencedSOPInstanceUID, image.image.sop_instance_uid.c_str());
-  if (image.frames.empty()) return;
-  failure << item.putAndInsertString(DCM_ReferencedFrameNumber,
-                                     fmt::format("{}", fmt::join(image.frames, "\\")).c_str());
+void KeyImageWriter::refer(DcmItem& item, const KeyImage& image, const std::vector<std::uint16_t>& frames) {
+  put(item, DCM_ReferencedSOPClassUID, image.header.sop_class_uid);
+  put(item, DCM_ReferencedSOPInstanceUID, image.header.sop_instance_uid);
+  if (!frames.empty()) put(item, DCM_ReferencedFrameNumber, fmt::format("{}", fmt::join(frames, "\\")));
 }
 
+// Each image once, with all its frames.
 void KeyImageWriter::refer_to_images(DcmItem& item) {
   DcmItem& series = add(item, DCM_ReferencedSeriesSequence);
   put(series, DCM_SeriesInstanceUID, study_.series_uid);
-  for (const KeyImage& image : images_) refer(add(series, DCM_ReferencedImageSequence), image, failure_);
+  std::map<std::string, std::vector<std::uint16_t>> frames;
+  for (const KeyImage& image : images_) {
+    auto& all = frames[image.header.sop_instance_uid];
+    all.insert(all.end(), image.frames.begin(), image.frames.end());
+  }
+  for (const KeyImage& image : images_) {
+    const auto found = frames.find(image.header.sop_instance_uid);
+    if (found == frames.end()) continue;
+    refer(add(series, DCM_ReferencedImageSequence), image, found->second);
+    frames.erase(found);
+  }
 }
 
-// Closed, in pieces where it is long. The middle of the first pixel is (1, 1) (PS3.3 C.10.5.1.2).
-void KeyImageWriter::draw(DcmItem& annotation, const Contour& contour) {
+// Closed, in pieces where it is long. The outline is in pixels.
+void KeyImageWriter::draw(DcmItem& annotation, const std::vector<glm::dvec2>& outline) {
   std::vector<Float32> points;
   const auto end_piece = [&] {
     DcmItem& line = add(annotation, DCM_GraphicObjectSequence);
@@ -177,8 +200,8 @@ void KeyImageWriter::draw(DcmItem& annotation, const Contour& contour) {
     put(line, DCM_GraphicType, "POLYLINE");
     put(line, DCM_GraphicFilled, "N");
   };
-  for (std::size_t n = 0; n <= contour.size(); ++n) {
-    const glm::dvec2 point = contour[n % contour.size()] + 1.0;
+  for (std::size_t n = 0; n <= outline.size(); ++n) {
+    const glm::dvec2 point = outline[n % outline.size()];
     points.insert(points.end(), {static_cast<Float32>(point.x), static_cast<Float32>(point.y)});
     if (points.size() / 2 < kMostPoints) continue;
     end_piece();
@@ -198,24 +221,28 @@ void KeyImageWriter::annotate(DcmDataset& dataset, const KeyImage& image) {
     const std::vector<Contour> contours = contours_of(segment, grid, image.k);
     if (contours.empty()) continue;
     DcmItem& annotation = add(dataset, DCM_GraphicAnnotationSequence);
-    refer(add(annotation, DCM_ReferencedImageSequence), image, failure_);
+    refer(add(annotation, DCM_ReferencedImageSequence), image, image.frames);
     put(annotation, DCM_GraphicLayer, layer_of(n));
-    glm::dvec2 right = contours.front().front();
+    glm::dvec2 right(0.0);
     for (const Contour& contour : contours) {
-      for (const glm::dvec2 point : contour) right = point.x > right.x ? point : right;
-      draw(annotation, contour);
+      std::vector<glm::dvec2> outline;
+      for (const glm::dvec2 point : contour) {
+        outline.push_back(image.pixel_at(grid.to_patient({point.x, point.y, static_cast<double>(image.k)})));
+        if (outline.back().x > right.x) right = outline.back();
+      }
+      draw(annotation, outline);
     }
     if (segment.name.empty()) continue;
     DcmItem& text = add(annotation, DCM_TextObjectSequence);
     put(text, DCM_AnchorPointAnnotationUnits, "PIXEL");
     put(text, DCM_UnformattedTextValue, segment.name);
-    const Float32 anchor[] = {static_cast<Float32>(right.x + 1.0), static_cast<Float32>(right.y + 1.0)};
+    const Float32 anchor[] = {static_cast<Float32>(right.x), static_cast<Float32>(right.y)};
     failure_ << text.putAndInsertFloat32Array(DCM_AnchorPoint, anchor, 2);
     put(text, DCM_AnchorPointVisibility, "N");
   }
 }
 
-Status KeyImageWriter::write_presentation(const WindowLevel& window) {
+Status KeyImageWriter::write_presentation(const std::optional<WindowLevel>& window) {
   auto dataset = std::make_unique<DcmDataset>();
   const Timestamp now = Timestamp::now();
   presentation_uid_ = make_uid();
@@ -232,23 +259,24 @@ Status KeyImageWriter::write_presentation(const WindowLevel& window) {
   refer_to_images(*dataset);
 
   DcmItem& area = add(*dataset, DCM_DisplayedAreaSelectionSequence);
+  const SliceHeader& shown = images_.front().header;
   put_both(area, DCM_DisplayedAreaTopLeftHandCorner, {1, 1});
-  put_both(area, DCM_DisplayedAreaBottomRightHandCorner, {display_.columns, display_.rows});
+  put_both(area, DCM_DisplayedAreaBottomRightHandCorner,
+           {static_cast<Sint32>(shown.frame_columns), static_cast<Sint32>(shown.frame_rows)});
   put(area, DCM_PresentationSizeMode, "SCALE TO FIT");
-  if (display_.spacing.empty()) {
-    put(area, DCM_PresentationPixelAspectRatio, "1\\1");
-  } else {
-    put(area, DCM_PresentationPixelSpacing, display_.spacing);
+  put(area, DCM_PresentationPixelSpacing, decimals(shown.pixel_spacing_mm->y, shown.pixel_spacing_mm->x));
+  const std::string& type = shown.quantity.rescale_type;
+  put(*dataset, DCM_RescaleIntercept, decimal(shown.intercept));
+  put(*dataset, DCM_RescaleSlope, decimal(shown.slope));
+  put(*dataset, DCM_RescaleType, !type.empty() ? type : shown.modality == "CT" ? "HU" : "US");
+  if (window) {
+    DcmItem& values = add(*dataset, DCM_SoftcopyVOILUTSequence);
+    put(values, DCM_WindowCenter, decimal(window->centre));
+    put(values, DCM_WindowWidth, decimal(window->width));
+    // The usual function has no windows below 1 (PS3.3 C.11.2.1.2).
+    if (window->width < 1.0) put(values, DCM_VOILUTFunction, "LINEAR_EXACT");
   }
-  if (!display_.slope.empty()) {
-    put(*dataset, DCM_RescaleIntercept, display_.intercept.empty() ? "0" : display_.intercept);
-    put(*dataset, DCM_RescaleSlope, display_.slope);
-    put(*dataset, DCM_RescaleType, display_.rescale_type.empty() ? "US" : display_.rescale_type);
-  }
-  DcmItem& values = add(*dataset, DCM_SoftcopyVOILUTSequence);
-  put(values, DCM_WindowCenter, decimal(window.centre));
-  put(values, DCM_WindowWidth, decimal(std::max(1.0, window.width)));
-  put(*dataset, DCM_PresentationLUTShape, display_.inverse ? "INVERSE" : "IDENTITY");
+  put(*dataset, DCM_PresentationLUTShape, shown.is_monochrome1 ? "INVERSE" : "IDENTITY");
   for (const KeyImage& image : images_) annotate(*dataset, image);
   for (std::size_t n = 0; n < segments_.list.size(); ++n) {
     DcmItem& layer = add(*dataset, DCM_GraphicLayerSequence);
@@ -270,22 +298,27 @@ Status KeyImageWriter::write_selection(const std::string& note) {
   enter(tree.addContentItem(DSRTypes::RT_isRoot, DSRTypes::VT_Container));
   failure_ << tree.getCurrentContentItem().setConceptName({"113000", "DCM", "Of Interest"});
   failure_ << tree.getCurrentContentItem().setTemplateIdentification("2010", "DCMR");
-  enter(tree.addContentItem(DSRTypes::RT_contains, DSRTypes::VT_Text, DSRTypes::AM_belowCurrent));
-  failure_ << tree.getCurrentContentItem().setConceptName({"113012", "DCM", "Key Object Description"});
-  failure_ << tree.getCurrentContentItem().setStringValue(text_of(note));
+  auto below = DSRTypes::AM_belowCurrent;
+  if (!note.empty()) {
+    enter(tree.addContentItem(DSRTypes::RT_contains, DSRTypes::VT_Text,
+                              std::exchange(below, DSRTypes::AM_afterCurrent)));
+    failure_ << tree.getCurrentContentItem().setConceptName({"113012", "DCM", "Key Object Description"});
+    failure_ << tree.getCurrentContentItem().setStringValue(text_of(note));
+  }
   for (const KeyImage& image : images_) {
-    DSRImageReferenceValue reference(text_of(image.image.sop_class_uid),
-                                     text_of(image.image.sop_instance_uid));
+    DSRImageReferenceValue reference(text_of(image.header.sop_class_uid),
+                                     text_of(image.header.sop_instance_uid));
     for (const std::uint16_t frame : image.frames) reference.getFrameList().addItem(frame);
     if (!presentation_uid_.empty()) {
       failure_ << reference.setPresentationState(DSRCompositeReferenceValue(
           UID_GrayscaleSoftcopyPresentationStateStorage, text_of(presentation_uid_)));
     }
-    enter(tree.addContentItem(DSRTypes::RT_contains, DSRTypes::VT_Image));
+    enter(tree.addContentItem(DSRTypes::RT_contains, DSRTypes::VT_Image,
+                              std::exchange(below, DSRTypes::AM_afterCurrent)));
     failure_ << tree.getCurrentContentItem().setImageReference(reference);
     failure_ << document.getCurrentRequestedProcedureEvidence().addItem(
-        text_of(study_.study_uid), text_of(study_.series_uid), text_of(image.image.sop_class_uid),
-        text_of(image.image.sop_instance_uid));
+        text_of(study_.study_uid), text_of(study_.series_uid), text_of(image.header.sop_class_uid),
+        text_of(image.header.sop_instance_uid));
   }
   if (!presentation_uid_.empty()) {
     failure_ << document.getCurrentRequestedProcedureEvidence().addItem(
@@ -301,8 +334,9 @@ Status KeyImageWriter::write_selection(const std::string& note) {
   return save_object(std::move(dataset), EXS_LittleEndianExplicit, files_.selection);
 }
 
-Status KeyImageWriter::write(const WindowLevel& window, const std::string& note) {
-  TIDEMARK_TRY(find_images());
+Status KeyImageWriter::write(const std::optional<WindowLevel>& window, const std::string& note,
+                             const Progress& progress) {
+  TIDEMARK_TRY(find_images(progress));
   if (!files_.presentation.empty()) {
     TIDEMARK_TRY(write_presentation(window));
   }
@@ -311,28 +345,37 @@ Status KeyImageWriter::write(const WindowLevel& window, const std::string& note)
 
 }  // namespace
 
-std::vector<std::int64_t> key_slices(const Segments& segments) {
+std::optional<WindowLevel> window_of_files(const Volume& volume, const WindowLevel& window) {
+  return volume.unit.empty() || volume.unit == "HU" ? std::optional(window) : std::nullopt;
+}
+
+std::vector<std::int64_t> key_slices(const Segments& segments,
+                                     const std::function<bool(std::int64_t k)>& has_image) {
   std::set<std::int64_t> slices;
   for (const Segment& segment : segments.list) {
-    const auto inside = [](const auto& slice) {
-      return std::count_if(slice.second.begin(), slice.second.end(),
-                           [](std::uint8_t voxel) { return voxel != 0; });
-    };
-    const auto largest =
-        std::max_element(segment.slices.begin(), segment.slices.end(),
-                         [&](const auto& a, const auto& b) { return inside(a) < inside(b); });
-    if (largest != segment.slices.end() && inside(*largest) > 0) slices.insert(largest->first);
+    std::int64_t most = 0;
+    std::int64_t largest = 0;
+    for (const auto& [k, voxels] : segment.slices) {
+      if (!has_image(k)) continue;
+      const auto inside =
+          std::count_if(voxels.begin(), voxels.end(), [](std::uint8_t voxel) { return voxel != 0; });
+      if (inside <= most) continue;
+      most = inside;
+      largest = k;
+    }
+    if (most > 0) slices.insert(largest);
   }
   return {slices.begin(), slices.end()};
 }
 
-Status write_key_images(const Segments& segments, SourceFiles source, const WindowLevel& window,
-                        const std::string& note, const KeyImageFiles& files) {
+Status write_key_images(const Segments& segments, SourceFiles source,
+                        const std::optional<WindowLevel>& window, const std::string& note,
+                        const KeyImageFiles& files, const Progress& progress) {
   return guarded_writing(files.selection, [&]() -> Status {
     if (source.empty()) {
       return fail(ErrorKind::input, "{}: key images refer to images in DICOM", files.selection.string());
     }
-    return KeyImageWriter(segments, source, files).write(window, note);
+    return KeyImageWriter(segments, source, files).write(window, note, progress);
   });
 }
 

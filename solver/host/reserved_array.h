@@ -6,10 +6,9 @@
 
 namespace tidemark::solver {
 
-// Room for `capacity` values in the address space alone: memory is taken, zeroed, when it is first touched. A
-// small array has its memory at once.
-// Nothing ever moves, so growing copies nothing and addresses stay good. T must be usable when it is all
-// zero bytes. Throws std::bad_alloc when the address space cannot be had.
+// Room for `capacity` zeroed values. More than 1 MiB is address space alone, which takes memory where it is
+// first touched. Nothing ever moves, so growing copies nothing and addresses stay good. T must be usable when
+// it is all zero bytes. Throws std::bad_alloc when the room cannot be had.
 void* reserve_address_space(std::size_t bytes);
 void release_address_space(void* address, std::size_t bytes);
 

@@ -125,8 +125,8 @@ class CliMeasureTest : public QObject {
     const QString truth = text(folder_ / "sphere" / "truth.nii.gz");
     const QStringList key{"--key-images", text(folder_ / "key.dcm")};
     const QStringList state{"--presentation", text(folder_ / "state.dcm")};
-    const Outcome said =
-        must_run(QStringList{"measure", series, truth, "--note", "a sphere's middle"} + key + state);
+    const Outcome said = must_run(
+        QStringList{"measure", series, truth, "--labels", "--note", "a sphere's middle"} + key + state);
     QVERIFY2(said.out.contains("key.dcm") && said.out.contains("state.dcm"), said.told());
     const QByteArray selection = bytes_of(folder_ / "key.dcm");
     QVERIFY(selection.contains("1.2.840.10008.5.1.4.1.1.88.59") && selection.contains("a sphere's middle"));
@@ -134,9 +134,12 @@ class CliMeasureTest : public QObject {
 
     const QString study = write("study", ramp(grid_));
     const QString mask = write("mask", map_of(grid_, {{{10, 5, 4}, {21, 9, 10}}}));
-    const Outcome no_series = run_cli(QStringList{"measure", study, mask} + key);
+    const Outcome no_series = run_cli(QStringList{"measure", study, mask, "--labels"} + key);
     QCOMPARE(no_series.code, 2);
     QVERIFY2(no_series.err.contains("is no DICOM series"), no_series.told());
+    const Outcome no_labels = run_cli(QStringList{"measure", series, truth} + key);
+    QCOMPARE(no_labels.code, 2);
+    QVERIFY2(no_labels.err.contains("needs --labels"), no_labels.told());
     const Outcome state_alone = run_cli(QStringList{"measure", series, truth} + state);
     QCOMPARE(state_alone.code, 2);
     QVERIFY2(state_alone.err.contains("needs --key-images"), state_alone.told());

@@ -2,6 +2,7 @@
 
 #include <QFileInfo>
 #include <QStatusBar>
+#include <utility>
 
 #include "engine/message_text.h"
 #include "imaging/pacs/configuration.h"
@@ -56,9 +57,10 @@ CaseResults::CaseResults(MainWindow& window)
   connect(actions.deidentify, &QAction::triggered, this, &CaseResults::make_anonymous_copies);
 }
 
-// Of no case: it goes on when the case is closed.
+// It goes on when its case is closed. One that waits may be of another case than the user sees now.
 void CaseResults::make_anonymous_copies() {
   auto* dialog = window_.findChild<DeidentifyDialog*>();
+  if (dialog && !dialog->working()) delete std::exchange(dialog, nullptr);
   if (!dialog) {
     CaseWindow* active = window_.active_case();
     dialog = new DeidentifyDialog(active ? &active->proxy().study() : nullptr, &window_);

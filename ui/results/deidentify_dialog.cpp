@@ -24,6 +24,7 @@ namespace tidemark::ui {
 namespace {
 
 constexpr int kDialogWidth = 600;
+constexpr int kNameWidth = 380;  // of patient and series
 constexpr int kOutcomeHeight = 160;
 constexpr int kLongestEntry = 64;  // letters of a DICOM value of that kind (LO)
 
@@ -34,7 +35,7 @@ std::filesystem::path entered_path(const QString& text) {
 }
 
 QString text_of(const std::filesystem::path& path) {
-  return QString::fromStdU16String(path.u16string());
+  return QFile::decodeName(path.c_str());  // names on old media need not be UTF-8
 }
 
 QString absolute(const QLineEdit& line) {
@@ -66,7 +67,7 @@ QString text_of(imaging::Change change) {
   return {};
 }
 
-// Of the files that go with it, the ones whose folder is the source: what is written must not lie there.
+// What is written must not lie among the files that are read.
 std::filesystem::path folder_of(const std::vector<std::filesystem::path>& files) {
   return files.empty() ? std::filesystem::path() : files.front().parent_path();
 }
@@ -137,8 +138,12 @@ void DeidentifyDialog::make_source(Form& form, const engine::LoadedStudy* study)
     of_series_->setEnabled(false);
     of_folder_->setChecked(true);
   } else {
-    const QString patient = QString::fromStdString(study->patient.name);
-    of_series_->setText(tr("The &series that is open: %1").arg(QStringList{patient, study->name}.join(", ")));
+    QStringList parts{QString::fromStdString(study->patient.name), study->name};
+    parts.removeAll(QString());
+    const QString whole = parts.join(QStringLiteral(", "));
+    QString name = of_series_->fontMetrics().elidedText(whole, Qt::ElideMiddle, kNameWidth);
+    of_series_->setText(tr("The &series that is open: %1").arg(name.replace('&', QStringLiteral("&&"))));
+    of_series_->setAccessibleDescription(whole);
     of_series_->setChecked(true);
   }
   of_series_->setToolTip(tr("The files of that series alone"));
@@ -279,7 +284,10 @@ bool DeidentifyDialog::overwrites_something() {
 }
 
 void DeidentifyDialog::begin() {
-  if (work_->working() || overwrites_something()) return;
+  if (work_->working()) return;
+  // They are relative to a folder that becomes another one.
+  for (QLineEdit* line : {source_, target_}) line->setText(absolute(*line));
+  if (overwrites_something()) return;
   const engine::DeidentifyOrder wanted = order();
   if (const Status fit = imaging::check_places(wanted.places); !fit)
     return rest(engine::message_text(fit.error()));
@@ -328,10 +336,8 @@ void DeidentifyDialog::show_outcome(const engine::DeidentifyOutcome& outcome) {
   outcome_->show();
   look_->setEnabled(true);
   QString said = tr("%1: files %2, series %3, patients %4.")
-                     .arg(QFileInfo(made_).fileName())
-                     .arg(outcome.files)
-                     .arg(outcome.series)
-                     .arg(outcome.patients);
+                     .arg(QFileInfo(made_).fileName(), QString::number(outcome.files),
+                          QString::number(outcome.series), QString::number(outcome.patients));
   if (!outcome.left_out.empty())
     said += ' ' + tr("Files that were left out: %1.").arg(outcome.left_out.size());
   rest(said + ' ' + tr("Look at a sample before you give them away."));
@@ -344,9 +350,10 @@ void DeidentifyDialog::rest(const QString& said) {
   follow();
 }
 
+// While it works, the first time stops the work: how that ends is to be seen.
 void DeidentifyDialog::reject() {
+  if (!working()) return QDialog::reject();
   worker_.cancel();
-  QDialog::reject();
 }
 
 }  // namespace tidemark::ui

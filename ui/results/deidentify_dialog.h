@@ -27,6 +27,8 @@ class DeidentifyDialog : public QDialog {
  public:
   DeidentifyDialog(const engine::LoadedStudy* study, QWidget* parent);  // null: no case is open
 
+  [[nodiscard]] bool working() const { return work_->working(); }
+
  signals:
   void open(const QString& folder);  // the user wants to look at the copies
 

@@ -14,7 +14,8 @@ struct Wanted {
   std::vector<imaging::ResultForm> forms;
   std::shared_ptr<const Volume>
       measured;  // its values go into a report about the segmentation; null: no report
-  std::optional<WindowLevel> key_images;  // shown with that window; unset: none
+  std::shared_ptr<const Volume> key_images_of;  // null: none
+  WindowLevel window;                           // of the key images
 };
 
 // Each form as a file of its own in that folder, and the report.
@@ -28,7 +29,7 @@ Result<std::vector<std::filesystem::path>> write_forms(const document::SessionCo
   std::vector<std::filesystem::path> files;
   std::filesystem::path segmentation;
   const auto count =
-      static_cast<int>(wanted.forms.size()) + (wanted.measured ? 1 : 0) + (wanted.key_images ? 1 : 0);
+      static_cast<int>(wanted.forms.size()) + (wanted.measured ? 1 : 0) + (wanted.key_images_of ? 1 : 0);
   for (const imaging::ResultForm form : wanted.forms) {
     const auto number = static_cast<int>(files.size());
     files.push_back(folder / fmt::format("{}.dcm", number + 1));
@@ -44,12 +45,22 @@ Result<std::vector<std::filesystem::path>> write_forms(const document::SessionCo
                                                         files.back(), progress.part(number, count));
     if (!written) return pass_on(written);
   }
-  if (wanted.key_images) {
-    const imaging::KeyImageFiles key{folder / "key.dcm", folder / "outlines.dcm"};
-    const Status written = imaging::write_key_images(*segments, source, *wanted.key_images,
-                                                     "Segments where they are largest", key);
+  if (wanted.key_images_of) {
+    const auto window = imaging::window_of_files(*wanted.key_images_of, wanted.window);
+    imaging::KeyImageFiles key{folder / "key.dcm", folder / "outlines.dcm"};
+    const auto write = [&] {
+      return imaging::write_key_images(*segments, source, window, imaging::kKeyImageNote, key,
+                                       progress.part(static_cast<int>(files.size()), count));
+    };
+    Status written = write();
+    // What no one state can show is named all the same.
+    if (!written && written.error().kind == ErrorKind::input) {
+      key.presentation.clear();
+      written = write();
+    }
     if (!written) return pass_on(written);
-    files.insert(files.end(), {key.presentation, key.selection});
+    if (!key.presentation.empty()) files.push_back(key.presentation);
+    files.push_back(key.selection);
   }
   return files;
 }
@@ -122,7 +133,8 @@ void SendResultDialog::begin(const Snapshot& snapshot) {
   if (segmentation_->isChecked()) wanted.forms.push_back(imaging::ResultForm::segmentation);
   if (contours_->isChecked()) wanted.forms.push_back(imaging::ResultForm::structure_set);
   if (segmentation_->isChecked() && report_->isChecked()) wanted.measured = proxy().study().volume;
-  if (key_images_->isChecked()) wanted.key_images = proxy().display().settings().window;
+  if (key_images_->isChecked()) wanted.key_images_of = proxy().study().volume;
+  wanted.window = proxy().display().settings().window;
   client_.send(server, [snapshot, wanted, what = content(), source = proxy().study().dicom_files](
                            const std::filesystem::path& folder, const Progress& progress) {
     return write_forms(snapshot->contents, what, wanted, source, folder, progress);

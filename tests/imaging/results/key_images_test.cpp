@@ -74,7 +74,10 @@ void KeyImagesTest::slices_are_those_with_most_voxels() {
   imaging::Segment empty;
   empty.slices = {{8, {0, 0, 0, 0}}};
   segments.list = {one, other, one, empty};
-  QCOMPARE(imaging::key_slices(segments), (std::vector<std::int64_t>{3, 4}));
+  QCOMPARE(imaging::key_slices(segments, [](std::int64_t) { return true; }),
+           (std::vector<std::int64_t>{3, 4}));
+  QCOMPARE(imaging::key_slices(segments, [](std::int64_t k) { return k != 4; }),
+           (std::vector<std::int64_t>{3, 6}));
 }
 
 void KeyImagesTest::validators_find_no_error() {
@@ -107,6 +110,7 @@ void KeyImagesTest::pydicom_finds_the_outline_where_the_segment_ends() {
   QCOMPARE(named["states"].toArray(), QJsonArray{shown["instance"]});
   QCOMPARE(shown["window"].toArray(), (QJsonArray{kWindow.centre, kWindow.width}));
   QCOMPARE(shown["area"].toArray(), (QJsonArray{1, 1, 40, 32}));
+  QVERIFY(shown["same_rescaling"].toBool());
   QCOMPARE(shown["layers"].toInt(), 1);
   QCOMPARE(shown["names"].toArray(), QJsonArray{"Leber \xc3\xbc"});
   QCOMPARE(shown["outlines"].toArray().size(), qsizetype{1});

@@ -187,6 +187,11 @@ def presentation(result, images):
         "instance": result.SOPInstanceUID,
         "window": [float(values.WindowCenter), float(values.WindowWidth)],
         "area": [*area.DisplayedAreaTopLeftHandCorner, *area.DisplayedAreaBottomRightHandCorner],
+        "same_rescaling": all(
+            getattr(image, name) == getattr(result, name)
+            for image in images.values()
+            for name in ("RescaleSlope", "RescaleIntercept", "RescaleType")
+        ),
         "layers": len(result.GraphicLayerSequence),
         "outlines": outlines,
         "names": names,
