@@ -64,7 +64,7 @@ void CaseResults::make_anonymous_copies() {
   if (!dialog) {
     CaseWindow* active = window_.active_case();
     dialog = new DeidentifyDialog(active ? &active->proxy().study() : nullptr, &window_);
-    connect(dialog, &DeidentifyDialog::open, &window_, &MainWindow::open);
+    connect(dialog, &DeidentifyDialog::copies_asked_for, &window_, &MainWindow::open);
     dialog->show();
   }
   dialog->raise();

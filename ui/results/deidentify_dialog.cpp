@@ -113,7 +113,7 @@ DeidentifyDialog::DeidentifyDialog(const engine::LoadedStudy* study, QWidget* pa
   for (const QLineEdit* line : {source_, target_})
     connect(line, &QLineEdit::textChanged, this, &DeidentifyDialog::follow);
   connect(go_, &QPushButton::clicked, this, &DeidentifyDialog::begin);
-  connect(look_, &QPushButton::clicked, this, [this] { emit open(made_); });
+  connect(look_, &QPushButton::clicked, this, [this] { emit copies_asked_for(made_); });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(work_, &WorkLine::cancelled, this, [this] { worker_.cancel(); });
   connect(&worker_, &engine::Deidentifier::progressed, work_, &WorkLine::set_progress);

@@ -30,7 +30,7 @@ class DeidentifyDialog : public QDialog {
   [[nodiscard]] bool working() const { return work_->working(); }
 
  signals:
-  void open(const QString& folder);  // the user wants to look at the copies
+  void copies_asked_for(const QString& folder);  // to be looked at
 
  private:
   void make_source(Form& form, const engine::LoadedStudy* study);

@@ -74,6 +74,7 @@ Desktop::~Desktop() {
   qInfo("the longest event took %s", qPrintable(watched.longest()));
   const QStringList held = watched.take_held();
   if (held.isEmpty() || !QTest::currentTestFunction()) return;
+  watched.note_failed_story();
   QTest::qFail(qPrintable("the user interface was held: " + held.join("; ")), __FILE__, __LINE__);
 }
 

@@ -23,6 +23,9 @@ class WatchedApplication : public QApplication {
   [[nodiscard]] QString longest() const;  // "31 ms in Paint of tidemark::VolumeViewWidget"
   // Those beyond the limit since the last call.
   [[nodiscard]] QStringList take_held() { return std::exchange(held_, {}); }
+  // Stories that failed by such events.
+  void note_failed_story() { ++failed_stories_; }
+  [[nodiscard]] int failed_stories() const { return failed_stories_; }
   [[nodiscard]] static WatchedApplication& instance();
 
  private:
@@ -34,6 +37,7 @@ class WatchedApplication : public QApplication {
   double longest_ms_ = 0.0;
   QString in_;
   QStringList held_;
+  int failed_stories_ = 0;
 };
 
 }  // namespace tidemark::test
