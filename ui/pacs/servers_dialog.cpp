@@ -11,6 +11,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/path_line.h"
 
 namespace tidemark::ui {
 namespace {
@@ -159,25 +160,16 @@ QWidget* ServersDialog::make_tls() {
 }
 
 QLineEdit* ServersDialog::file_line(const QString& label, const QString& tip, Form& form) {
-  auto* whole = new QWidget;
-  auto* row = new QHBoxLayout(whole);
-  row->setContentsMargins(0, 0, 0, 0);
-  auto* line = new QLineEdit;
-  line->setAccessibleName(label);
-  line->setToolTip(tip);
-  whole->setFocusProxy(line);
   auto* choose = new QToolButton;
   choose->setIcon(icon(u"open-file"));
   choose->setToolTip(tr("Choose a file"));
   choose->setAccessibleName(tr("Choose a file: %1").arg(label));
+  QLineEdit* line = add_path_line(form, label, tip, choose);
   connect(choose, &QToolButton::clicked, this, [this, line] {
     const QString file = QFileDialog::getOpenFileName(this, tr("A file in PEM"), line->text(),
                                                       tr("PEM (*.pem *.crt *.cer *.key);;All files (*)"));
     if (!file.isEmpty()) line->setText(file);
   });
-  row->addWidget(line, 1);
-  row->addWidget(choose);
-  form.row(label, whole, tip);
   return line;
 }
 

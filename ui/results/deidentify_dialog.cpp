@@ -19,6 +19,7 @@
 #include "ui/settings.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_box.h"
+#include "ui/widgets/path_line.h"
 
 namespace tidemark::ui {
 namespace {
@@ -157,24 +158,15 @@ void DeidentifyDialog::make_source(Form& form, const engine::LoadedStudy* study)
 }
 
 QLineEdit* DeidentifyDialog::folder_line(Form& form, const QString& label, const QString& tip) {
-  auto* whole = new QWidget;
-  auto* row = new QHBoxLayout(whole);
-  row->setContentsMargins(0, 0, 0, 0);
-  auto* line = new QLineEdit;
-  line->setAccessibleName(label);
-  line->setToolTip(tip);
-  whole->setFocusProxy(line);
   auto* choose = new QToolButton;
   choose->setIcon(icon(u"open-folder"));
   choose->setToolTip(tr("Choose a folder"));
   choose->setAccessibleName(tr("Choose a folder: %1").arg(label));
+  QLineEdit* line = add_path_line(form, label, tip, choose);
   connect(choose, &QToolButton::clicked, this, [this, line] {
     const QString folder = QFileDialog::getExistingDirectory(this, windowTitle(), absolute(*line));
     if (!folder.isEmpty()) line->setText(folder);
   });
-  row->addWidget(line, 1);
-  row->addWidget(choose);
-  form.row(label, whole, tip);
   return line;
 }
 
