@@ -6,6 +6,29 @@
 namespace tidemark::gpu {
 
 // Buffers are edited through a binding that nothing draws from, which works in every version.
+namespace {
+
+// The processor reads from it, and no shader works on it. An error is left for the next check of the device.
+BufferHandle make_staging(Device& device, std::int64_t bytes) {
+  GLuint id = 0;
+  glGenBuffers(1, &id);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, id);
+  glBufferData(GL_COPY_WRITE_BUFFER, bytes, nullptr, GL_STREAM_READ);
+  return {device, id};
+}
+
+void copy(unsigned from, std::int64_t from_offset, unsigned to, std::int64_t to_offset, std::int64_t bytes) {
+  glBindBuffer(GL_COPY_READ_BUFFER, from);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, to);
+  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, from_offset, to_offset, bytes);
+}
+
+void read(unsigned from, std::span<std::byte> data) {
+  glBindBuffer(GL_COPY_READ_BUFFER, from);
+  glGetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(data.size()), data.data());
+}
+
+}  // namespace
 
 Result<Buffer> Buffer::create(Device& device, std::int64_t bytes, std::string_view label) {
   TIDEMARK_TRY(device.check("allocating a buffer"));
@@ -16,7 +39,14 @@ Result<Buffer> Buffer::create(Device& device, std::int64_t bytes, std::string_vi
   buffer.bytes_ = bytes;
   const std::vector<std::byte> zeros(static_cast<std::size_t>(bytes));
   glBindBuffer(GL_COPY_WRITE_BUFFER, id);
-  glBufferData(GL_COPY_WRITE_BUFFER, bytes, zeros.data(), GL_DYNAMIC_COPY);
+  // Storage that cannot be mapped stays in the GPU's memory. Where the processor has read it often, NVIDIA's
+  // driver moves any other to the machine's memory, where atomic operations of shaders can be lost without a
+  // word.
+  if (device.capabilities().at_least(4, 4) || epoxy_has_gl_extension("GL_ARB_buffer_storage")) {
+    glBufferStorage(GL_COPY_WRITE_BUFFER, bytes, zeros.data(), GL_DYNAMIC_STORAGE_BIT);
+  } else {
+    glBufferData(GL_COPY_WRITE_BUFFER, bytes, zeros.data(), GL_DYNAMIC_COPY);
+  }
   set_label(device, GL_BUFFER, id, label);
   TIDEMARK_TRY(device.check("allocating a buffer"));
   return buffer;
@@ -28,16 +58,12 @@ void Buffer::upload(std::int64_t offset, std::span<const std::byte> data) {
   glBufferSubData(GL_COPY_WRITE_BUFFER, offset, static_cast<GLsizeiptr>(data.size()), data.data());
 }
 
-void Buffer::copy_from(const Buffer& source, std::int64_t from, std::int64_t to, std::int64_t bytes) {
-  glBindBuffer(GL_COPY_READ_BUFFER, source.id());
-  glBindBuffer(GL_COPY_WRITE_BUFFER, handle_.id());
-  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, from, to, bytes);
-}
-
 void Buffer::download(std::int64_t offset, std::span<std::byte> data) const {
   if (data.empty()) return;
-  glBindBuffer(GL_COPY_READ_BUFFER, handle_.id());
-  glGetBufferSubData(GL_COPY_READ_BUFFER, offset, static_cast<GLsizeiptr>(data.size()), data.data());
+  const auto bytes = static_cast<std::int64_t>(data.size());
+  const BufferHandle staging = make_staging(handle_.device(), bytes);
+  copy(handle_.id(), offset, staging.id(), 0, bytes);
+  read(staging.id(), data);
 }
 
 void Buffer::bind_storage(unsigned binding) const {
@@ -96,22 +122,22 @@ Status Fence::wait() const {
 }
 
 Result<Readback> Readback::create(Device& device, std::int64_t bytes, std::string_view label) {
-  auto staging = Buffer::create(device, bytes, label);
-  if (!staging) return pass_on(staging);
   Readback readback;
-  readback.staging_ = std::move(*staging);
-  readback.fence_ = Fence();
+  readback.staging_ = make_staging(device, bytes);
+  readback.bytes_ = bytes;
+  set_label(device, GL_BUFFER, readback.staging_.id(), label);
+  TIDEMARK_TRY(device.check("allocating a buffer to read from"));
   return readback;
 }
 
 void Readback::start(Device& device, const Buffer& from, std::int64_t offset) {
-  staging_.copy_from(from, offset, 0, staging_.bytes());
+  copy(from.id(), offset, staging_.id(), 0, bytes_);
   fence_ = Fence::insert(device);
 }
 
 Status Readback::finish(std::span<std::byte> data) {
   TIDEMARK_TRY(fence_.wait());
-  staging_.download(0, data);
+  read(staging_.id(), data);
   return {};
 }
 

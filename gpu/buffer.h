@@ -11,7 +11,8 @@
 
 namespace tidemark::gpu {
 
-// Memory of the GPU. Offsets and sizes are in bytes. Requests beyond the end are the caller's defect.
+// Memory of the GPU, which stays there. Offsets and sizes are in bytes. Requests beyond the end are the
+// caller's defect.
 class Buffer {
  public:
   Buffer() = default;
@@ -22,7 +23,6 @@ class Buffer {
   [[nodiscard]] unsigned id() const { return handle_.id(); }
 
   void upload(std::int64_t offset, std::span<const std::byte> data);
-  void copy_from(const Buffer& source, std::int64_t from, std::int64_t to, std::int64_t bytes);
   // Waits for the GPU.
   void download(std::int64_t offset, std::span<std::byte> data) const;
 
@@ -80,7 +80,8 @@ class Readback {
   Status finish(std::span<std::byte> data);
 
  private:
-  Buffer staging_;
+  BufferHandle staging_;
+  std::int64_t bytes_ = 0;
   Fence fence_;
 };
 

@@ -5,6 +5,7 @@
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
+#include "tests/gpu/buffer_storage.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test::device_test {
@@ -87,6 +88,14 @@ class DeviceTest : public QObject {
     QVERIFY(readback->finish(std::as_writable_bytes(std::span(read))));
     QCOMPARE(read, (std::vector<std::int32_t>{8, 9, 10, 11}));
     QVERIFY(readback->ready());
+  }
+
+  // A driver moves what can be mapped to where atomic operations of shaders are lost.
+  void a_buffer_cannot_be_mapped() {
+    const auto device = make_device();
+    const auto buffer = gpu::Buffer::create(*device, 64, "stays");
+    QVERIFY(buffer);
+    QVERIFY(cannot_be_mapped(*buffer));
   }
 
   void handles_are_counted_and_move() {
