@@ -6,11 +6,13 @@
 #include "solver/host/host_executor.h"
 #include "solver/reference/reference_executor.h"
 #include "solver/stream/stream_executor.h"
+#include "solver/trial.h"
 
 namespace tidemark::solver {
 namespace {
 
-// A context on a real GPU, if this machine has one: where the processor plays the GPU, host is far faster.
+// A context of OpenGL 4.5 on a real GPU, if this machine has one: where the processor plays the GPU, host is
+// far faster.
 std::shared_ptr<gpu::Device> hardware_device(const ExecutorOptions& options) {
   auto device = options.device;
   if (device == nullptr) {
@@ -43,14 +45,16 @@ Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_p
   TIDEMARK_TRY(check(parameters));
   switch (kind) {
     case ExecutorKind::automatic:
-      if (auto device = hardware_device(options); device != nullptr) {
-        ExecutorOptions on_gpu = options;
-        on_gpu.device = std::move(device);
-        return ComputeExecutor::create(std::move(source), parameters, on_gpu);
-      }
-      break;
-    case ExecutorKind::compute:
-      return ComputeExecutor::create(std::move(source), parameters, options);
+    case ExecutorKind::compute: {
+      ExecutorOptions on_gpu = options;
+      const auto device = hardware_device(options);
+      if (device != nullptr) on_gpu.device = device;
+      const Status passed = device != nullptr ? try_compute(device) : Status();
+      const bool automatic = kind == ExecutorKind::automatic;
+      if (automatic && (device == nullptr || !passed)) break;
+      TIDEMARK_TRY(passed);
+      return ComputeExecutor::create(std::move(source), parameters, on_gpu);
+    }
     case ExecutorKind::stream:
       return StreamExecutor::create(std::move(source), parameters, options);
     case ExecutorKind::reference:

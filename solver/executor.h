@@ -151,13 +151,14 @@ struct ExecutorOptions {
   Index3 page_shape = kDefaultPageShape;
 };
 
-// automatic: compute on a GPU; host where OpenGL is the processor's work or absent.
+// automatic: compute on a GPU whose driver passes a trial (solver/trial.h), else host.
 enum class ExecutorKind { automatic, host, compute, stream, reference };
 // "auto", or what Executor::name() says; unset for anything else.
 std::optional<ExecutorKind> executor_named(std::string_view name);
 
 // A level set on `source`, everywhere outside at first. `source` is kept. Fails (ErrorKind::usage) on
-// parameters that check() refuses, (ErrorKind::capability) when the machine cannot run the executor.
+// parameters that check() refuses, (ErrorKind::capability) when the machine cannot run the executor, or a GPU
+// computes the trial wrongly.
 Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_ptr<const Volume> source,
                                                 const Parameters& parameters,
                                                 const ExecutorOptions& options = {});

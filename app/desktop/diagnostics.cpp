@@ -76,7 +76,7 @@ std::string text(const Diagnostics& d) {
   add(all, "qt platform", d.qt_platform);
   add(all, "locale", d.locale);
   add_graphics(all, d);
-  add(all, "automatic executor", d.automatic_executor);
+  add(all, "automatic executor", fmt::format("{}, as {}", d.automatic_executor, d.executor_reason));
   add(all, "instruction set", d.instruction_set);
   add(all, "system", d.system);
   add(all, "architecture", d.architecture);

@@ -24,6 +24,7 @@ struct Diagnostics {
   std::string renderer_problem;  // what is wrong with how it was asked for; may be empty
 
   std::string automatic_executor;  // the choice of `auto` here: "compute" or "host"
+  std::string executor_reason;     // why
   std::string instruction_set;     // of the host executor
 
   std::string system;  // from here on: see describe_machine()

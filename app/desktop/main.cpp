@@ -3,13 +3,19 @@
 #include <QCommandLineParser>
 #include <QLocale>
 #include <QTextStream>
+#include <algorithm>
 #include <clocale>
 #include <cstdio>
+#include <future>
+#include <optional>
 
 #include "app/desktop/diagnostics.h"
+#include "app/desktop/glx_fallback.h"
 #include "core/result.h"
+#include "core/without_exceptions.h"
 #include "engine/engine.h"
 #include "solver/host/page_kernel.h"
+#include "solver/trial.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/main/language_switch.h"
@@ -33,7 +39,19 @@ std::string describe(engine::Engine::Graphics graphics) {
   return {};
 }
 
-void print_diagnostics(const engine::Engine& engine) {
+// Whether a case would compute on the GPU, and if not what is wrong with it.
+Status try_gpu(engine::Engine& engine) {
+  if (engine.graphics() != engine::Engine::Graphics::hardware || !engine.capabilities().at_least(4, 5)) {
+    return fail(ErrorKind::capability, "there is no GPU with OpenGL 4.5");
+  }
+  std::promise<Status> passed;
+  engine.post(engine::Priority::step, nullptr, [&](const std::stop_token&) {
+    passed.set_value(without_exceptions([&] { return solver::try_compute(engine.device()); }));
+  });
+  return passed.get_future().get();
+}
+
+void print_diagnostics(engine::Engine& engine) {
   desktop::Diagnostics diagnostics;
   diagnostics.version = TIDEMARK_VERSION;
   diagnostics.qt_version = qVersion();
@@ -45,12 +63,18 @@ void print_diagnostics(const engine::Engine& engine) {
   diagnostics.renderer = engine.renderer() == renderer::RendererKind::gl ? "gl" : "host";
   diagnostics.renderer_reason = engine.renderer_reason();
   diagnostics.renderer_problem = engine.renderer_problem();
-  const bool compute =
-      engine.graphics() == engine::Engine::Graphics::hardware && engine.capabilities().at_least(4, 5);
-  diagnostics.automatic_executor = compute ? "compute" : "host";
+  const Status gpu = try_gpu(engine);
+  diagnostics.automatic_executor = gpu ? "compute" : "host";
+  diagnostics.executor_reason = gpu ? "the GPU passes a trial" : gpu.error().message;
   if (const auto kernels = solver::select_page_kernels("")) diagnostics.instruction_set = kernels->name;
   desktop::describe_machine(diagnostics);
   QTextStream(stdout) << QString::fromStdString(desktop::text(diagnostics));
+}
+
+// Before there is an application to read its arguments.
+bool has_argument(int argc, char** argv, const char* name) {
+  return std::any_of(argv, argv + argc,
+                     [name](const char* argument) { return argument == QByteArray(name); });
 }
 
 // Without a display Qt would end the program with a message about its installation. What needs no window
@@ -60,11 +84,8 @@ bool can_start(int argc, char** argv) {
       qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) {
     return true;
   }
-  for (int i = 1; i < argc; ++i) {
-    const QByteArray argument(argv[i]);
-    for (const char* one : {"-h", "--help", "-v", "--version", "--diagnostics", "--print-settings"}) {
-      if (argument == one) return qputenv("QT_QPA_PLATFORM", "offscreen");
-    }
+  for (const char* one : {"-h", "--help", "-v", "--version", "--diagnostics", "--print-settings"}) {
+    if (has_argument(argc, argv, one)) return qputenv("QT_QPA_PLATFORM", "offscreen");
   }
   return false;
 }
@@ -76,12 +97,14 @@ int main(int argc, char** argv) {
     std::fputs("tidemark: there is no display; tidemark-cli works without one\n", stderr);
     return exit_code(ErrorKind::capability);
   }
-  // Without it every undocking of a view would destroy its context.
-  QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+  // Without it every undocking of a view would destroy its context; with it Qt makes a context at once.
+  QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts, !has_argument(argc, argv, "--no-opengl"));
   QCoreApplication::setOrganizationName("tidemark");
   QCoreApplication::setApplicationName("tidemark");
   QCoreApplication::setApplicationVersion(TIDEMARK_VERSION);
+  std::optional<desktop::GlxFallback> start(std::in_place, argv);
   QApplication application(argc, argv);
+  start.reset();
   // Qt has set the system's locale; numbers are parsed and written with a point everywhere.
   std::setlocale(LC_NUMERIC, "C");
 

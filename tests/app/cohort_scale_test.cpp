@@ -130,7 +130,7 @@ void CohortScaleTest::a_run_takes_no_more_memory_the_longer_it_is() {
   QProcess process;
   process.start(cli_program(), {"cohort", "run", text(out), "--jobs", QString::number(kJobs)});
   const auto memory_after = [&](int cases) {
-    while (published.by_name().size() < cases && !process.waitForFinished(20)) {
+    while (published.by_name().size() < cases && !process.waitForFinished(200)) {
     }
     return memory_of(process);
   };

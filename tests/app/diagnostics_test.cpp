@@ -33,6 +33,7 @@ desktop::Diagnostics example() {
   d.renderer = "host";
   d.renderer_reason = "there is no GPU";
   d.automatic_executor = "host";
+  d.executor_reason = "there is no GPU with OpenGL 4.5";
   d.instruction_set = "avx2";
   return d;
 }
@@ -47,7 +48,7 @@ class DiagnosticsTest : public QObject {
     for (const char* part :
          {"1.2.3", "6.4.2", "xcb", "de_DE", "software", "Mesa", "llvmpipe", "4.5 (Core Profile)",
           "2048 voxels", "compute shaders:    yes", "renderer:           host, as there is no GPU\n",
-          "automatic executor: host\n", "avx2"}) {
+          "automatic executor: host, as there is no GPU with OpenGL 4.5\n", "avx2"}) {
       QVERIFY2(has(all, part), part);
     }
   }

@@ -24,7 +24,7 @@ class FolderEvents {
 
   // The names of entries that an event was about, with how often. To be called before the system's queue of
   // some 16,000 events is full.
-  QMap<QString, int> by_name() {
+  const QMap<QString, int>& by_name() {
     alignas(inotify_event) std::array<char, 1 << 16> buffer;
     for (ssize_t got = 0; (got = ::read(notifier_, buffer.data(), buffer.size())) > 0;) {
       for (ssize_t at = 0; at < got;) {
