@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/json/json_text.h"
 #include "core/text_file.h"
 #include "document/lesson.h"
 #include "document/lesson_figure_names.h"
@@ -312,7 +313,7 @@ Result<Lesson> Lesson::load(const std::filesystem::path& file) {
 }
 
 Result<std::string> Lesson::to_text() const {
-  std::string text = lesson_json(*this).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string text = json_text(lesson_json(*this));
   if (const auto again = parse(text, ""); !again) return fail(ErrorKind::usage, "{}", again.error().message);
   return text;
 }

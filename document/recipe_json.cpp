@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/checked.h"
+#include "core/json/json_text.h"
 #include "document/drive_json.h"
 #include "document/field_bytes.h"
 #include "document/file_limits.h"
@@ -361,8 +362,7 @@ Recipe read_recipe(const JsonField& field) {
 }
 
 Result<std::string> Recipe::to_text() const {
-  std::string text =
-      tidemark::document::to_json(*this).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string text = json_text(tidemark::document::to_json(*this), 1);
   if (text.size() <= kLargestFile) {
     TIDEMARK_TRY(JsonDocument::parse(text, "the recipe"));  // what could not be read again is not written
     return text;

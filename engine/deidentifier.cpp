@@ -15,14 +15,14 @@ Result<Outcome> carry_out(DeidentifyOrder order, const Progress& progress) {
     if (!found) return pass_on(found);
     order.files = std::move(*found);
   }
-  order.options.list_changes = true;
+  order.options.record = imaging::RecordedChanges::totals;
   auto written = imaging::write_deidentified(order.files, order.places, order.options, progress);
   if (!written) return pass_on(written);
   auto outcome = std::make_shared<DeidentifyOutcome>();
   outcome->files = written->files.size();
   outcome->series = written->series;
   outcome->patients = written->patients.size();
-  outcome->changes = imaging::change_totals(*written);
+  outcome->changes = std::move(written->totals);
   for (const imaging::DeidentifiedFile& file : written->files) {
     if (!file.risk.empty()) outcome->risky.emplace_back(file.source, file.risk);
   }

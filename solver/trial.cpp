@@ -15,7 +15,7 @@ namespace tidemark::solver {
 namespace {
 
 constexpr Index3 kSize{56, 48, 40};
-constexpr double kInside = 100.0;
+constexpr double kInside = 1000.0;
 // Few steps each: between runs the processor reads what the GPU has written, as in use.
 constexpr int kRuns = 12;
 constexpr std::int64_t kStepsOfARun = 8;
@@ -38,17 +38,18 @@ Status compare_after_run(Executor& tried, Executor& trusted, std::int64_t steps)
 
 }  // namespace
 
+// Of the type of most cases, whose shaders are then compiled once.
 std::shared_ptr<const Volume> trial_source() {
   auto volume = std::make_shared<Volume>();
   volume->geometry.size = kSize;
-  std::vector<float> values(static_cast<std::size_t>(volume->geometry.voxel_count()));
+  std::vector<std::int16_t> values(static_cast<std::size_t>(volume->geometry.voxel_count()));
   const glm::dvec3 middle = 0.5 * glm::dvec3(kSize - Index3(1));
   std::size_t at = 0;
   for (std::int64_t k = 0; k < kSize.z; ++k) {
     for (std::int64_t j = 0; j < kSize.y; ++j) {
       for (std::int64_t i = 0; i < kSize.x; ++i) {
         const double radius = glm::length(glm::dvec3(i, j, k) - middle);
-        values[at++] = static_cast<float>(kInside / (1.0 + std::exp(radius - 17.0)));
+        values[at++] = static_cast<std::int16_t>(std::lround(kInside / (1.0 + std::exp(radius - 17.0))));
       }
     }
   }

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "app/cli/progress_bar.h"
+#include "core/json/json_text.h"
 
 namespace tidemark::cli {
 namespace {
@@ -65,7 +66,7 @@ void Console::warn(const std::string& message) {
 }
 
 void Console::result(const Json& object) {
-  if (json_) print(to_text(object));
+  if (json_) print(json_text(object));
 }
 
 Progress Console::progress() {
@@ -89,10 +90,6 @@ int Console::finish(const Status& status) {
     return exit_code(ErrorKind::write);
   }
   return 0;
-}
-
-std::string to_text(const Json& object) {
-  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace tidemark::cli

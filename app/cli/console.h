@@ -68,7 +68,4 @@ class Console {
   std::unique_ptr<ProgressBar> bar_;
 };
 
-// JSON as text, two spaces deep, with whatever is not UTF-8 replaced; the same in every locale.
-[[nodiscard]] std::string to_text(const Json& object);
-
 }  // namespace tidemark::cli

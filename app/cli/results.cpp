@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/json/json_text.h"
 #include "document/segment_meshes.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
@@ -195,7 +196,7 @@ Status ResultWriter::stage(const RunResults& results) {
     TIDEMARK_TRY(outputs_.stage(options_.picture, write_picture));
   }
   if (!options_.stats.empty()) {
-    Status staged = stage_text(options_.stats, to_text(to_json(results.figures)));
+    Status staged = stage_text(options_.stats, json_text(to_json(results.figures)));
     if (!staged) return staged;
   }
   if (options_.recipe.empty()) return {};

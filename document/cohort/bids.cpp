@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "core/json/json.h"
+#include "core/json/json_text.h"
 #include "document/cohort/work_list.h"
 
 namespace tidemark::cohort {
@@ -62,10 +63,6 @@ MaskName name_of_mask(const std::string& id) {
   }
   name.stem += "desc-tidemark" + letters_of(parts.back()) + "_mask";
   return name;
-}
-
-std::string text_of(const Json& object) {
-  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 // Of the source of a cohort: a folder or file, or a server as planning names it.
@@ -126,10 +123,10 @@ Result<std::int64_t> write_bids(const CohortFolder& folder, const Review& review
       fs::create_directories(root / name.folder, error);
       const fs::path stem = root / name.folder / name.stem;
       TIDEMARK_TRY(place_mask(folder.case_folder(one.status.id) / "mask.nii.gz", stem.string() + ".nii.gz"));
-      TIDEMARK_TRY(write_file(stem.string() + ".json", text_of(sidecar_of(one.status, options))));
+      TIDEMARK_TRY(write_file(stem.string() + ".json", json_text(sidecar_of(one.status, options))));
       ++count;
     }
-    TIDEMARK_TRY(write_file(root / "dataset_description.json", text_of(description_of(options))));
+    TIDEMARK_TRY(write_file(root / "dataset_description.json", json_text(description_of(options))));
     TIDEMARK_TRY(write_file(root / "README", "Masks by Tidemark, a level-set surface. Research use only.\n"));
   }
   TIDEMARK_TRY(sync_file_system(root));

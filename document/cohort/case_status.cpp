@@ -6,6 +6,7 @@
 
 #include "core/json/json.h"
 #include "core/json/json_field.h"
+#include "core/json/json_text.h"
 #include "core/text_file.h"
 
 namespace tidemark::cohort {
@@ -15,11 +16,6 @@ const std::vector<std::string_view> kOutcomes{"done", "refused", "timed_out", "o
 const std::vector<std::string_view> kWarnings{"vanished", "filled", "not_converged", "touches_border"};
 constexpr std::int64_t kMost = std::int64_t{1} << 53;
 constexpr std::size_t kMostRemarks = 1000;
-
-// JSON is UTF-8; what is not is replaced when it is written.
-std::string written(const Json& object) {
-  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
 
 Json to_json(const CaseFigures& figures) {
   Json object{{"volume_ml", figures.volume_ml},
@@ -117,7 +113,7 @@ std::string CaseStatus::to_text() const {
   for (const CaseWarning warning : warnings) object["warnings"].push_back(name_of(warning));
   if (figures) object["figures"] = to_json(*figures);
   if (corrected) object["corrected"] = true;
-  return written(object);
+  return json_text(object);
 }
 
 Result<CaseStatus> CaseStatus::parse(std::string_view text, const std::string& file) {

@@ -5,6 +5,7 @@
 #include "core/atomic_file.h"
 #include "core/json/json.h"
 #include "core/json/json_field.h"
+#include "core/json/json_text.h"
 #include "core/text_file.h"
 #include "document/checksum.h"
 
@@ -117,7 +118,7 @@ Status CohortFolder::write_plan(const CohortPlan& plan, const WorkList& list,
     TIDEMARK_TRY(write_file(recipe(), recipe_text));
   }
   TIDEMARK_TRY(write_file(work_list(), list.to_text()));
-  return write_file(this->plan(), to_json(plan).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return write_file(this->plan(), json_text(to_json(plan)));
 }
 
 }  // namespace tidemark::cohort

@@ -7,6 +7,7 @@
 
 #include "core/csv.h"
 #include "core/json/json.h"
+#include "core/json/json_text.h"
 
 namespace tidemark::cohort {
 namespace {
@@ -181,7 +182,7 @@ std::string review_json(const Review& review) {
     }
     object["cases"].push_back(std::move(entry));
   }
-  return object.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(object, 1);
 }
 
 }  // namespace tidemark::cohort

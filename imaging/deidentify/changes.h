@@ -19,6 +19,12 @@ struct ChangedAttribute {
   Change change = Change::removed;
 };
 
+// What became of an attribute, in how many values of all files.
+struct ChangeTotal {
+  ChangedAttribute attribute;  // its path without the numbers of items
+  std::int64_t values = 0;
+};
+
 struct ChangeCounts {
   std::array<std::int64_t, kChangeNames.size()> of{};
 

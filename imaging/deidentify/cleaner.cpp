@@ -84,7 +84,7 @@ std::string identity_of(DcmDataset& dataset) {
 
 void Cleaner::note(const DcmTagKey& key, const std::string& path, Change change) {
   ++counts_[change];
-  if (options_.list_changes) changes_.push_back({path_of(key, path), keyword_of(key), change});
+  if (records()) changes_.push_back({path_of(key, path), keyword_of(key), change});
 }
 
 std::unique_ptr<DcmElement> Cleaner::with_text(std::unique_ptr<DcmElement> element, const std::string& path,
@@ -109,7 +109,7 @@ std::unique_ptr<DcmElement> Cleaner::kept(std::unique_ptr<DcmElement> element, c
     for (DcmObject* item = nullptr; (item = sequence.nextInContainer(item)) != nullptr;) {
       ++number;
       const std::string inside =
-          options_.list_changes ? fmt::format("{}[{}].", path_of(key, path), number) : std::string();
+          records() ? fmt::format("{}[{}].", path_of(key, path), number) : std::string();
       clean_item(static_cast<DcmItem&>(*item), inside, is_all_text_replaced);
     }
     return element;

@@ -30,7 +30,7 @@ class Cleaner {
 
   // Of all datasets so far.
   [[nodiscard]] const ChangeCounts& counts() const { return counts_; }
-  // Of the last dataset; empty unless the options ask for it.
+  // Of the last dataset; empty with RecordedChanges::counts.
   [[nodiscard]] std::vector<ChangedAttribute> take_changes() { return std::move(changes_); }
 
  private:
@@ -41,6 +41,7 @@ class Cleaner {
                                    bool is_all_text_replaced);
   std::unique_ptr<DcmElement> with_text(std::unique_ptr<DcmElement> element, const std::string& path,
                                         const std::string& text, Change change);
+  [[nodiscard]] bool records() const { return options_.record != RecordedChanges::counts; }
   void note(const DcmTagKey& key, const std::string& path, Change change);
 
   DeidentifyOptions options_;

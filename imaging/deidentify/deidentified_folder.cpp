@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 #include "core/csv.h"
 #include "core/json/json.h"
+#include "core/json/json_text.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -25,10 +24,6 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
 
 std::string_view word_of(Change change) {
   return kChangeNames[static_cast<std::size_t>(change)];
-}
-
-std::string text_of(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string list_as_csv(const Deidentified& result) {
@@ -52,7 +47,7 @@ std::string list_as_json(const Deidentified& result) {
     }
     list["files"].push_back({{"file", file.name}, {"changes", std::move(changes)}});
   }
-  return text_of(list);
+  return json_text(list);
 }
 
 std::string key_text(const Deidentified& result) {
@@ -68,7 +63,7 @@ std::string key_text(const Deidentified& result) {
   for (const DeidentifiedFile& file : result.files) {
     key["files"].push_back({{"old", file.source.string()}, {"new", file.name}});
   }
-  return text_of(key);
+  return json_text(key);
 }
 
 enum class Readers { all, owner };
@@ -83,18 +78,6 @@ Result<AtomicFile> staged(const fs::path& file, const std::string& text, Readers
   std::ofstream out(made->temporary_path(), std::ios::binary | std::ios::trunc);
   if (!error && out.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) return made;
   return fail(ErrorKind::write, "{}: cannot write", file.string());
-}
-
-// "(0008,1140)[2].(0008,1155)" without the number.
-std::string without_items(const std::string& path) {
-  std::string text;
-  bool inside = false;
-  for (const char c : path) {
-    if (c == '[') inside = true;
-    if (!inside) text += c;
-    if (c == ']') inside = false;
-  }
-  return text;
 }
 
 }  // namespace
@@ -122,7 +105,7 @@ Status check_places(const DeidentifyPlaces& places) {
 Result<Deidentified> write_deidentified(const std::vector<fs::path>& files, const DeidentifyPlaces& places,
                                         DeidentifyOptions options, const Progress& progress) {
   TIDEMARK_TRY(check_places(places));
-  if (!places.list.empty()) options.list_changes = true;
+  if (!places.list.empty()) options.record = RecordedChanges::each;
   auto result = deidentify(files, places.folder, options, progress);
   if (!result) return result;
   // The key first: without it there is no way back from the folder.
@@ -153,20 +136,6 @@ Result<Deidentified> write_deidentified(const std::vector<fs::path>& files, cons
   std::error_code ignored;
   for (const fs::path& file : written) fs::remove(file, ignored);
   return pass_on(committed);
-}
-
-std::vector<ChangeTotal> change_totals(const Deidentified& result) {
-  std::map<std::tuple<std::string, std::string, Change>, std::int64_t> totals;
-  for (const DeidentifiedFile& file : result.files) {
-    for (const ChangedAttribute& one : file.changes)
-      ++totals[{without_items(one.path), one.keyword, one.change}];
-  }
-  std::vector<ChangeTotal> list;
-  for (const auto& [key, values] : totals) {
-    const auto& [path, keyword, change] = key;
-    list.push_back({{path, keyword, change}, values});
-  }
-  return list;
 }
 
 }  // namespace tidemark::imaging

@@ -23,13 +23,4 @@ struct DeidentifyPlaces {
                                                       DeidentifyOptions options,
                                                       const Progress& progress = {});
 
-// What became of an attribute, in how many values of all files.
-struct ChangeTotal {
-  ChangedAttribute attribute;  // its path without the numbers of items
-  std::int64_t values = 0;
-};
-
-// In the order of the attributes' paths; of files whose changes are listed.
-[[nodiscard]] std::vector<ChangeTotal> change_totals(const Deidentified& result);
-
 }  // namespace tidemark::imaging

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "imaging/deidentify/cleaner.h"
@@ -44,6 +45,18 @@ Status check_options(const DeidentifyOptions& options) {
               kMostShiftDays);
 }
 
+// "(0008,1140)[2].(0008,1155)" without the number.
+std::string without_items(const std::string& path) {
+  std::string text;
+  bool inside = false;
+  for (const char c : path) {
+    if (c == '[') inside = true;
+    if (!inside) text += c;
+    if (c == ']') inside = false;
+  }
+  return text;
+}
+
 class Run {
  public:
   Run(const DeidentifyOptions& options, Deidentified& result)
@@ -52,6 +65,10 @@ class Run {
   Status take(const fs::path& file);
   void finish() {
     result_.counts = cleaner_.counts();
+    for (const auto& [key, values] : totals_) {
+      const auto& [path, keyword, change] = key;
+      result_.totals.push_back({{path, keyword, change}, values});
+    }
     result_.series = static_cast<std::int64_t>(series_.size());
     result_.uids = pseudonyms_.known_uids();
     result_.patients = pseudonyms_.known_patients();
@@ -69,12 +86,14 @@ class Run {
   }
   Status write(ParsedDicom parsed, DeidentifiedFile written);
   Result<std::string> name_for(const std::string& series_uid);
+  void record(std::vector<ChangedAttribute> changes, DeidentifiedFile& written);
 
   DeidentifyOptions options_;
   Pseudonyms pseudonyms_;
   Cleaner cleaner_;
   Deidentified& result_;
   std::map<std::string, SeriesFolder> series_;
+  std::map<std::tuple<std::string, std::string, Change>, std::int64_t> totals_;  // by path and keyword
 };
 
 Status Run::take(const fs::path& file) {
@@ -113,6 +132,11 @@ Result<std::string> Run::name_for(const std::string& series_uid) {
   return fmt::format("{}/{:06}.dcm", folder, ++series.files);
 }
 
+void Run::record(std::vector<ChangedAttribute> changes, DeidentifiedFile& written) {
+  for (const ChangedAttribute& one : changes) ++totals_[{without_items(one.path), one.keyword, one.change}];
+  if (options_.record == RecordedChanges::each) written.changes = std::move(changes);
+}
+
 Status Run::write(ParsedDicom parsed, DeidentifiedFile written) {
   const E_TransferSyntax syntax = parsed.syntax().is_deflated
                                       ? EXS_LittleEndianExplicit
@@ -125,7 +149,7 @@ Status Run::write(ParsedDicom parsed, DeidentifiedFile written) {
   if (Status clean = cleaner_.clean(*dataset); !clean) {
     return fail(clean.error().kind, "{}: {}", written.source.string(), clean.error().message);
   }
-  written.changes = cleaner_.take_changes();
+  record(cleaner_.take_changes(), written);
   // With a preamble and a meta header of its own, which say nothing of where the file comes from.
   constexpr OFBool kNoCopy = OFFalse;
   DcmFileFormat object(dataset.release(), kNoCopy);
@@ -140,7 +164,7 @@ Result<Deidentified> deidentify_all(const std::vector<fs::path>& files, const fs
   TIDEMARK_TRY(set_up_dicom());
   auto whole = AtomicFolder::create(folder);
   if (!whole) return pass_on(whole);
-  Deidentified result{std::move(*whole), {}, {}, {}, 0, {}, {}};
+  Deidentified result{std::move(*whole), {}, {}, {}, {}, 0, {}, {}};
   const SyncLater later;
   Run run(options, result);
   for (std::size_t i = 0; i < files.size(); ++i) {

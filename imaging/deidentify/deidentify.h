@@ -19,7 +19,7 @@ struct DeidentifiedFile {
   std::filesystem::path source;
   std::string name;                       // in the new folder: "series-001/000001.dcm"
   std::string risk;                       // why its pixels may show who it is; empty where nothing says so
-  std::vector<ChangedAttribute> changes;  // where DeidentifyOptions::list_changes asks for them
+  std::vector<ChangedAttribute> changes;  // with RecordedChanges::each
 };
 
 struct LeftOutFile {
@@ -39,6 +39,7 @@ struct Deidentified {
   std::vector<DeidentifiedFile> files;
   std::vector<LeftOutFile> left_out;
   ChangeCounts counts;
+  std::vector<ChangeTotal> totals;  // in the order of the paths; none with RecordedChanges::counts
   std::int64_t series = 0;
   // What undoes it: old to new.
   std::map<std::string, std::string> uids;

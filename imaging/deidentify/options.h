@@ -6,6 +6,9 @@
 
 namespace tidemark::imaging {
 
+// What Deidentified has of the changes. Of a large archive a list of each takes gigabytes.
+enum class RecordedChanges { counts, totals, each };
+
 // Without any: the Basic Application Level Confidentiality Profile (DICOM PS3.15 E.2) alone.
 struct DeidentifyOptions {
   bool keep_uids = false;             // Retain UIDs (E.3.9)
@@ -19,7 +22,7 @@ struct DeidentifyOptions {
   std::optional<std::string> patient_id = {};    // else one by chance; of one patient alone
   std::optional<std::string> patient_name = {};  // else the new ID
   bool with_risky_images = false;                // takes images that may show who it is, too
-  bool list_changes = false;                     // Deidentified::files says what was done to each attribute
+  RecordedChanges record = RecordedChanges::counts;
 };
 
 }  // namespace tidemark::imaging

@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/json/json.h"
 #include "core/json/json_field.h"
+#include "core/json/json_text.h"
 #include "core/site_folder.h"
 
 namespace tidemark::imaging {
@@ -213,7 +214,7 @@ Status write_pacs_configuration(const PacsConfiguration& configuration, const fs
   fs::create_directories(file.parent_path(), error);
   if (error)
     return fail(ErrorKind::write, "{}: cannot be made: {}", file.parent_path().string(), error.message());
-  return write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return write_file(file, json_text(json));
 }
 
 }  // namespace tidemark::imaging

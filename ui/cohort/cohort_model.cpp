@@ -6,6 +6,7 @@
 #include "engine/message_text.h"
 #include "ui/cohort/case_pictures.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/path_text.h"
 #include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
@@ -37,7 +38,7 @@ CohortModel::CohortModel(cohort::CohortFolder folder, std::vector<cohort::Review
       pictures_(std::make_unique<CasePictures>()) {
   connect(pictures_.get(), &CasePictures::read, this, [this](const QString& file) {
     // The case's folder is named by its id.
-    const int row = row_of(std::filesystem::path(file.toStdU16String()).parent_path().filename().string());
+    const int row = row_of(path_of(file).parent_path().filename().string());
     if (row >= 0) emit dataChanged(index(row), index(row), {Qt::DecorationRole});
   });
 }
@@ -107,7 +108,7 @@ QString CohortModel::details(int row) const {
 }
 
 QString CohortModel::picture_file(const std::string& id) const {
-  return QString::fromStdU16String(folder_.picture(id).u16string());
+  return ui::text_of(folder_.picture(id));
 }
 
 QString CohortModel::text_of(const cohort::ReviewEntry& entry) const {

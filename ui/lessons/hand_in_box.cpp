@@ -17,6 +17,7 @@
 #include "ui/main/case_files.h"
 #include "ui/results/file_name.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {

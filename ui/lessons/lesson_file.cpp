@@ -6,13 +6,10 @@
 #include <utility>
 
 #include "ui/settings.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
-
-QString text_of(const std::filesystem::path& file) {
-  return QString::fromStdU16String(file.u16string());
-}
 
 QString filter() {
   return LessonFile::tr("Lessons (*.json)");
@@ -62,8 +59,7 @@ void LessonFile::ask_and_open() {
     auto* dialog = new QFileDialog(&window_, tr("Open a lesson"), begin_in, filter());
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setFileMode(QFileDialog::ExistingFile);
-    connect(dialog, &QFileDialog::fileSelected, this,
-            [this](const QString& file) { open(file.toStdU16String()); });
+    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) { open(path_of(file)); });
     dialog->open();
   });
 }
@@ -100,7 +96,7 @@ void LessonFile::save_as() {
       return;
     }
     settings::save_folder().set(QFileInfo(file).absolutePath());
-    write(file.toStdU16String());
+    write(path_of(file));
   });
   dialog->open();
 }

@@ -12,6 +12,7 @@
 #include "ui/lessons/text_box.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/widgets/path_text.h"
 #include "ui/widgets/wheel_guard.h"
 
 namespace tidemark::ui {
@@ -106,7 +107,7 @@ void StudyChoice::show_study(document::LessonStudy* study, const std::filesystem
     has_noise_->setChecked(name->options.noise_percent >= 0.0);
     show_number(*noise_, std::max(name->options.noise_percent, 0.0), 1);
   }
-  file_->setText(QString::fromStdU16String(study->file.generic_u16string()));
+  file_->setText(text_of(study->file));
   enable();
 }
 
@@ -126,7 +127,7 @@ void StudyChoice::keep() {
     chosen.phantom = kind_->currentData().toString().toStdString();
     if (has_noise_->isChecked()) chosen.phantom += fmt::format(":{}", noise_->value());
   } else {
-    chosen.file = file_->text().trimmed().toStdU16String();
+    chosen.file = path_of(file_->text().trimmed());
   }
   enable();
   if (chosen == *study_) return;
@@ -136,15 +137,15 @@ void StudyChoice::keep() {
 
 void StudyChoice::choose(bool folder) {
   auto* dialog = new QFileDialog(this, folder ? tr("The folder of the study") : tr("The file of the study"),
-                                 QString::fromStdU16String(folder_.u16string()));
+                                 text_of(folder_));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(folder ? QFileDialog::Directory : QFileDialog::ExistingFile);
   dialog->setOption(QFileDialog::ShowDirsOnly, folder);
   connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& chosen) {
     // What is outside stays as it is: the lesson's problem then says why it cannot be.
-    const std::filesystem::path path = chosen.toStdU16String();
+    const std::filesystem::path path = path_of(chosen);
     const std::filesystem::path relative = folder_.empty() ? path : path.lexically_relative(folder_);
-    file_->setText(QString::fromStdU16String(relative.generic_u16string()));
+    file_->setText(text_of(relative));
     keep();
   });
   dialog->open();

@@ -17,6 +17,7 @@
 #include "ui/results/case_report.h"
 #include "ui/views/picture_view.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {

@@ -36,10 +36,6 @@ QString about_writing(const CaseWindow& window, const QString& file) {
 
 }  // namespace
 
-std::filesystem::path path_of(const QString& file) {
-  return file.toStdU16String();
-}
-
 CaseFiles::CaseFiles(MainWindow& window) : QObject(&window), window_(window) {}
 
 CaseFiles::~CaseFiles() {

@@ -45,6 +45,4 @@ class CaseFiles : public QObject {
   std::vector<std::shared_ptr<engine::BackgroundJob>> jobs_;
 };
 
-std::filesystem::path path_of(const QString& file);
-
 }  // namespace tidemark::ui

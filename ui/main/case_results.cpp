@@ -15,6 +15,7 @@
 #include "ui/results/deidentify_dialog.h"
 #include "ui/results/send_result_dialog.h"
 #include "ui/results/write_result_dialog.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -118,7 +119,7 @@ void CaseResults::read_next() {
   if (!next.window) return end_reading();
   progress_->begin(QFileInfo(next.file).fileName());
   progress_->show();
-  jobs_.read_labels(next.file.toStdU16String(), next.window->proxy().volume().geometry, next.only_results);
+  jobs_.read_labels(path_of(next.file), next.window->proxy().volume().geometry, next.only_results);
 }
 
 void CaseResults::end_reading(const QString& problem) {

@@ -20,6 +20,7 @@
 #include "ui/main/main_window.h"
 #include "ui/main/side_dock.h"
 #include "ui/settings.h"
+#include "ui/widgets/path_text.h"
 #include "ui/widgets/work_line.h"
 
 namespace tidemark::ui {
@@ -82,7 +83,7 @@ void CohortReview::connect_actions() {
 
 bool CohortReview::is_cohort(const QString& folder) {
   return QFileInfo(folder).isDir() && folder_of(folder).is_planned() &&
-         QFileInfo::exists(QString::fromStdU16String(folder_of(folder).work_list().u16string()));
+         QFileInfo::exists(text_of(folder_of(folder).work_list()));
 }
 
 void CohortReview::ask_and_open() {

@@ -10,6 +10,7 @@
 #include "ui/main/main_window.h"
 #include "ui/opening/loading_view.h"
 #include "ui/views/picture_view.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -59,7 +60,7 @@ void FilmWriter::write(CaseWindow& window, const QString& file) {
         file_ = file;
         progress_->begin(QFileInfo(file).fileName());
         progress_->show();
-        jobs_.write([=, path = std::filesystem::path(file.toStdU16String())](const Progress& progress) {
+        jobs_.write([=, path = path_of(file)](const Progress& progress) {
           return engine::write_film(snapshot->contents.recipe, volume, wanted, size, path, progress);
         });
       });

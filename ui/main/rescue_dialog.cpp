@@ -8,16 +8,13 @@
 #include <algorithm>
 
 #include "engine/phantom_text.h"
+#include "ui/widgets/path_text.h"
 #include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr std::size_t kMostListed = 8;
-
-QString text_of(const std::filesystem::path& path) {
-  return QString::fromStdU16String(path.u16string());
-}
 
 QString age(const std::filesystem::path& copy) {
   const QDateTime written = QFileInfo(text_of(copy)).lastModified();

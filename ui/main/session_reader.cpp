@@ -17,6 +17,7 @@
 #include "ui/main/session_writer.h"
 #include "ui/main/teaching.h"
 #include "ui/settings.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -201,7 +202,7 @@ void SessionReader::offer(const RescuedWork& work, const QString& why) {
   const bool open = answer == RescueAnswer::open;
   for (const document::Recoverable& copy : work.cases) {
     if (open) {
-      read(QString::fromStdU16String(copy.file.u16string()), copy.case_id);
+      read(text_of(copy.file), copy.case_id);
     } else {
       document::discard(engine::recovery_folder(), copy.case_id);
     }

@@ -6,6 +6,7 @@
 #include "document/session_file.h"
 #include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 

@@ -22,6 +22,7 @@
 #include "ui/main/case_window.h"
 #include "ui/main/main_window.h"
 #include "ui/main/side_dock.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {

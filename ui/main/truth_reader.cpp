@@ -18,6 +18,7 @@
 #include "ui/main/panel_docks.h"
 #include "ui/main/status_bar.h"
 #include "ui/opening/loading_view.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -59,7 +60,7 @@ void TruthReader::read(CaseWindow& window, const QString& file) {
   file_ = file;
   progress_->begin(QFileInfo(file).fileName());
   progress_->show();
-  jobs_.read_labels(file.toStdU16String(), window.proxy().volume().geometry);
+  jobs_.read_labels(path_of(file), window.proxy().volume().geometry);
 }
 
 void TruthReader::end(const QString& problem) {

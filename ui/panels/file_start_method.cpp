@@ -15,6 +15,7 @@
 #include "ui/widgets/file_patterns.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 
@@ -85,7 +86,7 @@ void FileStartMethod::choose() {
 
 void FileStartMethod::start(int levels) {
   const QPointer<engine::CaseProxy> wanted(proxy());
-  const std::filesystem::path path(path_->text().toStdU16String());
+  const std::filesystem::path path = path_of(path_->text());
   StartRequest request{kind_, path, proxy()->volume().geometry, proxy()->state().band, std::nullopt, levels};
   if (refine_) request.within_mm = refine_->within_mm();
   reading_ = engine::BackgroundJob::start(this, [this, wanted, request](engine::BackgroundJob& job) {

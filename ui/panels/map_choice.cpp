@@ -11,6 +11,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/file_patterns.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 
@@ -63,7 +64,7 @@ void MapChoice::choose() {
 void MapChoice::read(const QString& file) {
   if (!proxy()) return;
   give_up();
-  const std::filesystem::path path(file.toStdU16String());
+  const std::filesystem::path path = path_of(file);
   reading_ = engine::BackgroundJob::start(
       this,
       [this, path, grid = proxy()->volume().geometry](engine::BackgroundJob& job) {

@@ -20,6 +20,7 @@
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_box.h"
 #include "ui/widgets/path_line.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -30,14 +31,6 @@ constexpr int kOutcomeHeight = 160;
 constexpr int kLongestEntry = 64;  // letters of a DICOM value of that kind (LO)
 
 enum Dates { kGo, kMovedByChance, kMovedByDays };
-
-std::filesystem::path entered_path(const QString& text) {
-  return text.toStdU16String();
-}
-
-QString text_of(const std::filesystem::path& path) {
-  return QFile::decodeName(path.c_str());  // names on old media need not be UTF-8
-}
 
 QString absolute(const QLineEdit& line) {
   const QString text = line.text().trimmed();
@@ -245,10 +238,10 @@ engine::DeidentifyOrder DeidentifyDialog::order() const {
     order.archive = archive_;
   }
   const QString folder = absolute(*target_);
-  order.places.source = of_series_->isChecked() ? folder_of(series_) : entered_path(absolute(*source_));
-  order.places.folder = entered_path(folder);
-  if (list_->isChecked()) order.places.list = entered_path(list_of(folder));
-  if (key_->isChecked()) order.places.key = entered_path(key_of(folder));
+  order.places.source = of_series_->isChecked() ? folder_of(series_) : path_of(absolute(*source_));
+  order.places.folder = path_of(folder);
+  if (list_->isChecked()) order.places.list = path_of(list_of(folder));
+  if (key_->isChecked()) order.places.key = path_of(key_of(folder));
   imaging::DeidentifyOptions& options = order.options;
   const auto entered = [](const QLineEdit& line) -> std::optional<std::string> {
     const std::string text = line.text().trimmed().toStdString();

@@ -12,6 +12,7 @@
 #include "ui/look/theme.h"
 #include "ui/results/file_name.h"
 #include "ui/settings.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -19,10 +20,6 @@ namespace {
 QString usual_folder() {
   const QString folder = settings::save_folder().get();
   return QFileInfo::exists(folder) ? folder : QDir::homePath();
-}
-
-std::filesystem::path path_of(const QString& file) {
-  return file.toStdU16String();
 }
 
 QString title_of(ResultFile kind) {
@@ -135,7 +132,7 @@ QStringList WriteResultDialog::files() const {
     }
   QStringList files;
   for (const std::filesystem::path& file : document::mesh_files(names, path_of(file_->text()))) {
-    files << QString::fromStdU16String(file.u16string());
+    files << text_of(file);
   }
   return files;
 }

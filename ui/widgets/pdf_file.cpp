@@ -4,6 +4,7 @@
 #include <QTextDocument>
 
 #include "core/atomic_file.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 
@@ -13,7 +14,7 @@ Status write_pdf_file(const QString& html, const QString& title, const std::file
   auto target = AtomicFile::create(file);
   if (!target) return pass_on(target);
   {
-    QPdfWriter writer(QString::fromStdU16String(target->temporary_path().u16string()));
+    QPdfWriter writer(text_of(target->temporary_path()));
     writer.setResolution(kResolution);
     writer.setPageSize(QPageSize(QPageSize::A4));
     writer.setPageMargins(QMarginsF(kMargin, kMargin, kMargin, kMargin), QPageLayout::Millimeter);

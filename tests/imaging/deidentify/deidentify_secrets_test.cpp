@@ -169,11 +169,13 @@ class DeidentifySecretsTest : public QObject {
     QVERIFY(before.startsWith("ZAPHOD") && before.count("ZAPHOD") > 900);
     for (const char* secret : kSecrets) QVERIFY2(finds(before, secret), secret);
 
-    auto made = imaging::deidentify(files, folder / "out", {.list_changes = true});
+    auto made = imaging::deidentify(files, folder / "out", {.record = imaging::RecordedChanges::each});
     QCOMPARE(failure(made), QString());
     QCOMPARE(failure(made->folder.commit()), QString());
     QCOMPARE(made->files.size(), files.size());
+    std::int64_t listed = 0;
     for (const imaging::DeidentifiedFile& file : made->files) {
+      listed += static_cast<std::int64_t>(file.changes.size());
       verify_without_secrets(bytes_of(folder / "out" / file.name), file.name);
       verify_without_secrets(QByteArray::fromStdString(file.name), "the name");
       QVERIFY(file.changes.size() > keys.size());
@@ -181,12 +183,27 @@ class DeidentifySecretsTest : public QObject {
         verify_without_secrets(QByteArray::fromStdString(one.path + one.keyword), "the list");
       }
     }
+    QCOMPARE(values_of(*made), listed);
     const auto read = imaging::load_dicom(only_series(folder / "out"));
     QCOMPARE(failure(read), QString());
     verify_same(*read, volume);
+
+    // The totals alone are the same, and nothing grows with the files.
+    const auto summed =
+        imaging::deidentify(files, folder / "again", {.record = imaging::RecordedChanges::totals});
+    QCOMPARE(failure(summed), QString());
+    QCOMPARE(values_of(*summed), listed);
+    QCOMPARE(summed->totals.size(), made->totals.size());
+    for (const imaging::DeidentifiedFile& file : summed->files) QVERIFY(file.changes.empty());
   }
 
  private:
+  static std::int64_t values_of(const imaging::Deidentified& made) {
+    std::int64_t sum = 0;
+    for (const imaging::ChangeTotal& one : made.totals) sum += one.values;
+    return sum;
+  }
+
   static bool finds(const QByteArray& bytes, const char* secret) {
     return QRegularExpression(secret).match(QString::fromLatin1(bytes)).hasMatch();
   }

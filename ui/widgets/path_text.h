@@ -1,0 +1,19 @@
+// Paths of the file system as texts of Qt, and back.
+#pragma once
+
+#include <QString>
+#include <filesystem>
+
+namespace tidemark::ui {
+
+// Bytes that are not UTF-8, which names on old media may have, become U+FFFD: std::filesystem's own
+// conversions throw.
+inline QString text_of(const std::filesystem::path& path) {
+  return QString::fromStdString(path.native());
+}
+
+inline std::filesystem::path path_of(const QString& text) {
+  return text.toStdU16String();
+}
+
+}  // namespace tidemark::ui
