@@ -11,17 +11,16 @@
 namespace tidemark::solver {
 namespace {
 
-// A context of OpenGL 4.5 on a real GPU, if this machine has one: where the processor plays the GPU, host is
-// far faster.
-std::shared_ptr<gpu::Device> hardware_device(const ExecutorOptions& options) {
-  auto device = options.device;
-  if (device == nullptr) {
-    auto made = gpu::Device::create_headless({gpu::GlVersion::gl45, options.debug});
-    if (!made) return nullptr;
-    device = *made;
-  }
-  const gpu::Capabilities& capabilities = device->capabilities();
-  return capabilities.software || !capabilities.at_least(4, 5) ? nullptr : device;
+// The device of the options, or a new one of OpenGL 4.5; null: there is none.
+std::shared_ptr<gpu::Device> device_for(const ExecutorOptions& options) {
+  if (options.device != nullptr) return options.device;
+  auto made = gpu::Device::create_headless({gpu::GlVersion::gl45, options.debug});
+  return made ? *made : nullptr;
+}
+
+// Where the processor plays the GPU, host is far faster.
+bool is_gpu(const gpu::Device& device) {
+  return !device.capabilities().software && device.capabilities().at_least(4, 5);
 }
 
 }  // namespace
@@ -47,11 +46,10 @@ Result<std::unique_ptr<Executor>> make_executor(ExecutorKind kind, std::shared_p
     case ExecutorKind::automatic:
     case ExecutorKind::compute: {
       ExecutorOptions on_gpu = options;
-      const auto device = hardware_device(options);
-      if (device != nullptr) on_gpu.device = device;
-      const Status passed = device != nullptr ? try_compute(device) : Status();
-      const bool automatic = kind == ExecutorKind::automatic;
-      if (automatic && (device == nullptr || !passed)) break;
+      on_gpu.device = device_for(options);
+      const bool has_gpu = on_gpu.device != nullptr && is_gpu(*on_gpu.device);
+      const Status passed = has_gpu ? try_compute(on_gpu.device) : Status();
+      if (kind == ExecutorKind::automatic && (!has_gpu || !passed)) break;
       TIDEMARK_TRY(passed);
       return ComputeExecutor::create(std::move(source), parameters, on_gpu);
     }
