@@ -251,7 +251,8 @@ Status sync_to_disk(const fs::path& path) {
 Status write_file(const fs::path& target, std::string_view bytes) {
   auto file = AtomicFile::create(target);
   if (!file) return pass_on(file);
-  const int descriptor = ::open(file->temporary_path().c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  // It is empty. ext4 sends a file to the disk at once, as it is closed, where it was made so by O_TRUNC.
+  const int descriptor = ::open(file->temporary_path().c_str(), O_WRONLY | O_CLOEXEC);
   int error = descriptor < 0 ? errno : 0;
   while (error == 0 && !bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());

@@ -6,6 +6,42 @@
 #include "core/typed_volume.h"
 
 namespace tidemark {
+namespace {
+
+template <class Stored>
+std::vector<Stored> every(std::int64_t stride, const std::vector<Stored>& voxels) {
+  if (stride == 1) return voxels;
+  std::vector<Stored> sample;
+  sample.reserve(voxels.size() / static_cast<std::size_t>(stride) + 1);
+  for (std::size_t i = 0; i < voxels.size(); i += static_cast<std::size_t>(stride))
+    sample.push_back(voxels[i]);
+  return sample;
+}
+
+// The smallest and largest of a sample but for `tail` of them at either end. Changes the sample's order.
+std::pair<float, float> without_tails(std::vector<float>& sample, std::size_t tail) {
+  const auto at = static_cast<std::ptrdiff_t>(tail);
+  std::nth_element(sample.begin(), sample.begin() + at, sample.end());
+  const float low = sample[tail];
+  std::nth_element(sample.begin() + at, sample.end() - 1 - at, sample.end());
+  return {low, *(sample.end() - 1 - at)};
+}
+
+// Of whole numbers a count of each is many times quicker.
+template <class Stored>
+std::pair<Stored, Stored> without_tails(const std::vector<Stored>& sample, std::size_t tail) {
+  const auto [least, most] = std::minmax_element(sample.begin(), sample.end());
+  std::vector<std::size_t> counts(static_cast<std::size_t>(*most - *least) + 1);
+  for (const Stored value : sample) ++counts[static_cast<std::size_t>(value - *least)];
+  std::size_t low = 0;
+  for (std::size_t below = counts[0]; below <= tail; below += counts[low]) ++low;
+  std::size_t high = counts.size() - 1;
+  for (std::size_t above = counts[high]; above <= tail; above += counts[high]) --high;
+  return {static_cast<Stored>(*least + static_cast<int>(low)),
+          static_cast<Stored>(*least + static_cast<int>(high))};
+}
+
+}  // namespace
 
 const char* Volume::scalar_name() const {
   constexpr const char* kNames[] = {"int16", "uint16", "float"};
@@ -43,16 +79,12 @@ std::pair<float, float> Volume::common_range() const {
   constexpr std::int64_t kSample = 1'000'000;
   // An odd stride does not follow rows or slices.
   const std::int64_t stride = std::max<std::int64_t>(1, geometry.voxel_count() / kSample) | 1;
-  std::vector<float> sample;
-  sample.reserve(static_cast<std::size_t>((geometry.voxel_count() + stride - 1) / stride));
-  with_type(*this, [&](const auto& typed) {
-    for (std::int64_t i = 0; i < geometry.voxel_count(); i += stride) sample.push_back(typed.value(i));
+  return with_type(*this, [&](const auto& typed) {
+    auto sample = every(stride, typed.stored);
+    const auto [low, high] = without_tails(sample, sample.size() / 200);
+    // The slope may be negative.
+    return std::pair<float, float>(std::minmax({typed.rescaled(low), typed.rescaled(high)}));
   });
-  const auto one_in = static_cast<std::ptrdiff_t>(sample.size() / 200);
-  std::nth_element(sample.begin(), sample.begin() + one_in, sample.end());
-  const float low = sample[static_cast<std::size_t>(one_in)];
-  std::nth_element(sample.begin() + one_in, sample.end() - 1 - one_in, sample.end());
-  return {low, *(sample.end() - 1 - one_in)};
 }
 
 std::int64_t Mask::count() const {

@@ -101,7 +101,22 @@ float PhiPages::between(glm::vec3 position) const {
     const int z = y << shift_.y;
     for (int i = 0; i < 8; ++i) corner[i] = first[(i & 1) + (i & 2 ? y : 0) + (i & 4 ? z : 0)];
   } else {
-    for (int i = 0; i < 8; ++i) corner[i] = at(low + glm::ivec3(i & 1, i >> 1 & 1, i >> 2));
+    const glm::ivec3 high = glm::min(low + 1, size_ - 1);
+    const int pages[3][2] = {
+        {low.x >> shift_.x, high.x >> shift_.x},
+        {(low.y >> shift_.y) * pages_.x, (high.y >> shift_.y) * pages_.x},
+        {(low.z >> shift_.z) * pages_.x * pages_.y, (high.z >> shift_.z) * pages_.x * pages_.y}};
+    const int offsets[3][2] = {
+        {local.x, high.x & mask_.x},
+        {local.y << shift_.x, (high.y & mask_.y) << shift_.x},
+        {local.z << (shift_.x + shift_.y), (high.z & mask_.z) << (shift_.x + shift_.y)}};
+    for (int i = 0; i < 8; ++i) {
+      const int x = i & 1;
+      const int y = i >> 1 & 1;
+      const int z = i >> 2;
+      corner[i] =
+          values_of(pages[0][x] + pages[1][y] + pages[2][z])[offsets[0][x] + offsets[1][y] + offsets[2][z]];
+    }
   }
   float along_z[4];
   for (int i = 0; i < 4; ++i) along_z[i] = glm::mix(corner[i], corner[i + 4], f.z);

@@ -1,6 +1,7 @@
 // core: checked sizes, geometry, files that appear whole or not at all, the thread pool.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <new>
 #include <numeric>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -351,6 +353,38 @@ class CoreTest : public QObject {
     QCOMPARE(volume.value(Index3(1, 0, 0)), -19.0F);
     QCOMPARE(volume.range(), std::pair(-19.0F, 11.0F));
     QCOMPARE(volume.values(), (std::vector<float>{1.0F, -19.0F, 11.0F}));
+  }
+
+  void the_common_range_is_that_of_the_values_sorted_whatever_their_type() {
+    const auto check = [](auto type, std::int64_t count, std::int64_t stride, double slope) {
+      std::mt19937 random(5);
+      std::normal_distribution<double> some(0.0, 3000.0);
+      std::vector<decltype(type)> stored(static_cast<std::size_t>(count));
+      constexpr bool kSigned = std::is_signed_v<decltype(type)>;
+      for (auto& value : stored) {
+        value = static_cast<decltype(type)>(
+            std::clamp(some(random) + (kSigned ? 0.0 : 30000.0), -32768.0, 65535.0));
+      }
+      Volume volume;
+      volume.geometry.size = {count, 1, 1};
+      volume.slope = slope;
+      volume.intercept = -100.0;
+      volume.voxels = stored;
+      std::vector<float> sorted;
+      for (std::int64_t i = 0; i < count; i += stride) sorted.push_back(volume.value(i));
+      std::sort(sorted.begin(), sorted.end());
+      const std::size_t tail = sorted.size() / 200;
+      QCOMPARE(volume.common_range(), std::pair(sorted[tail], sorted[sorted.size() - 1 - tail]));
+    };
+    for (const double slope : {1.0, 0.25, -2.0}) {
+      for (const std::int64_t count : {1, 199, 200, 10'007}) {
+        check(std::int16_t(), count, 1, slope);
+        check(std::uint16_t(), count, 1, slope);
+        check(float(), count, 1, slope);
+      }
+      check(std::int16_t(), 2'100'000, 3, slope);
+      check(float(), 2'100'000, 3, slope);
+    }
   }
 
   void dice_counts_overlap() {
