@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <unordered_set>
+#include <utility>
 
 #include "core/csv.h"
 #include "core/json/json.h"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kNormalMad = 0.6745;    // of a normal distribution, in standard deviations
 constexpr double kNormalMean = 0.79788;  // its mean deviation
-constexpr double kNoResult = 1e9;        // above every z
 
 double median_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -38,10 +38,26 @@ constexpr ReviewFigure kFigures[kReviewFigures] = {
      [](const CaseStatus& status) { return status.figures ? status.figures->dice : std::nullopt; }},
 };
 
+// What there is to compare, the most urgent last. A surface that has vanished or fills the volume is none.
+enum class Comparable { surface, no_surface, no_result };
+
+Comparable comparable(const CaseStatus& status) {
+  if (status.outcome != CaseOutcome::done) return Comparable::no_result;
+  const bool has_surface = std::none_of(
+      status.warnings.begin(), status.warnings.end(),
+      [](CaseWarning warning) { return warning == CaseWarning::vanished || warning == CaseWarning::filled; });
+  return has_surface ? Comparable::surface : Comparable::no_surface;
+}
+
+bool comes_before(const ReviewedCase& a, const ReviewedCase& b) {
+  return std::pair(comparable(a.status), a.unusual) > std::pair(comparable(b.status), b.unusual);
+}
+
 void set_scales(Review& review) {
   for (int figure = 0; figure < kReviewFigures; ++figure) {
     std::vector<double> values;
     for (const ReviewedCase& one : review.cases) {
+      if (comparable(one.status) != Comparable::surface) continue;
       if (const auto value = kFigures[figure].value(one.status)) values.push_back(*value);
     }
     review.scales[figure] = RobustScale::of(std::move(values));
@@ -50,7 +66,6 @@ void set_scales(Review& review) {
 
 void set_unusual(Review& review) {
   for (ReviewedCase& one : review.cases) {
-    if (one.status.outcome != CaseOutcome::done) one.unusual = kNoResult;
     for (int figure = 0; figure < kReviewFigures; ++figure) {
       const auto value = kFigures[figure].value(one.status);
       if (!value) continue;
@@ -121,8 +136,7 @@ Result<Review> review(const CohortFolder& folder, const WorkList& list, const Pr
   }
   set_scales(review);
   set_unusual(review);
-  std::stable_sort(review.cases.begin(), review.cases.end(),
-                   [](const ReviewedCase& a, const ReviewedCase& b) { return a.unusual > b.unusual; });
+  std::stable_sort(review.cases.begin(), review.cases.end(), comes_before);
   return review;
 }
 

@@ -39,13 +39,15 @@ struct ReviewFigure {
 struct ReviewedCase {
   CaseStatus status;
   std::optional<double> z[kReviewFigures];
-  double unusual = 0.0;  // the largest |z|; more than any of them where there is no result
+  double unusual = 0.0;  // the largest |z|
 };
 
 struct Review {
-  std::vector<ReviewedCase> cases;      // the most unusual first
+  // Those without a result, those without a surface (it has vanished, or fills the volume), then the rest; of
+  // each the most unusual first.
+  std::vector<ReviewedCase> cases;
   std::vector<std::string> not_done;    // ids
-  RobustScale scales[kReviewFigures];   // of cases with a result
+  RobustScale scales[kReviewFigures];   // of cases with a surface
   std::vector<Decision> decisions;      // as the folder keeps them; of cases that are not in the list, too
   std::vector<std::string> unreadable;  // statuses, and the table of decisions; one sentence each
 

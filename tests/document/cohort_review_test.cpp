@@ -72,6 +72,7 @@ class CohortReviewTest : public QObject {
   void many_equal_values_have_a_spread_all_the_same();
   void the_most_unusual_case_comes_first();
   void cases_without_a_result_come_before_all();
+  void cases_without_a_surface_come_next_and_are_no_measure_for_others();
   void a_status_that_cannot_be_read_loses_no_other();
   void a_status_is_read_as_it_was_written();
   void the_page_begins_with_what_was_said();
@@ -119,6 +120,25 @@ void CohortReviewTest::cases_without_a_result_come_before_all() {
   failed.outcome = CaseOutcome::timed_out;
   cohort.add(failed);
   QCOMPARE(QString::fromStdString(cohort.review().cases.front().status.id), QString("failed"));
+}
+
+void CohortReviewTest::cases_without_a_surface_come_next_and_are_no_measure_for_others() {
+  SmallCohort cohort(5);
+  cohort.add(done("leaked", 9000.0));
+  for (int i = 0; i < 20; ++i) {
+    CaseStatus vanished = done(fmt::format("vanished{}", i), 0.0);
+    vanished.warnings = {cohort::CaseWarning::vanished};
+    cohort.add(vanished);
+  }
+  CaseStatus failed;
+  failed.id = "failed";
+  failed.outcome = CaseOutcome::failed;
+  cohort.add(failed);
+  const cohort::Review review = cohort.review();
+  QCOMPARE(QString::fromStdString(review.cases[0].status.id), QString("failed"));
+  for (std::size_t i = 1; i <= 20; ++i) QVERIFY(review.cases[i].status.id.starts_with("vanished"));
+  QCOMPARE(QString::fromStdString(review.cases[21].status.id), QString("leaked"));
+  QCOMPARE(review.scales[0].median, 102.5);
 }
 
 void CohortReviewTest::a_status_that_cannot_be_read_loses_no_other() {
