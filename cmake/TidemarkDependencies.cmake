@@ -29,6 +29,7 @@ target_include_directories(tidemark_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(tidemark_itk INTERFACE
   ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGIPL ITKSmoothing)
 find_package(ZLIB REQUIRED)
+find_package(CURL 7.87 REQUIRED)
 find_package(GIF REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)

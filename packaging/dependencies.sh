@@ -6,7 +6,7 @@ tidemark_packages=(
   g++ cmake ninja-build ccache pkg-config
   qt6-base-dev qt6-svg-dev fonts-dejavu-core libgl-dev libepoxy-dev libegl-dev libegl1 libgl1 libgl1-mesa-dri
   libglm-dev libfmt-dev libspdlog-dev libexpected-dev nlohmann-json3-dev libcli11-dev libhwy-dev
-  libzip-dev libssl-dev libdcmtk-dev libnsl-dev libopenjp2-7-dev
+  libzip-dev libssl-dev libcurl4-openssl-dev libdcmtk-dev libnsl-dev libopenjp2-7-dev
   libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libpng-dev libjpeg-dev libtiff-dev libgif-dev
   libopenvdb-dev libtbb-dev libboost-dev
 )
@@ -18,7 +18,7 @@ if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then tidemark_packages
 # looks at the Debian package, a second compiler with its sanitizers, the reference compiler of shaders, what makes the
 # handbook's HTML, a font for Chinese and Japanese, and schedulers of clusters.
 tidemark_test_packages=(
-  xvfb xauth locales python3-pydicom python3-numpy dicom3tools dcm2niix plastimatch orthanc dcmtk openssl
+  xvfb xauth locales python3-pydicom python3-numpy dicom3tools dcm2niix plastimatch orthanc orthanc-dicomweb dcmtk openssl
   dpkg-dev debhelper fakeroot file clang libclang-rt-dev glslang-tools python3-sphinx python3-myst-parser
   fonts-droid-fallback slurmctld slurmd slurm-client munge snakemake
 )

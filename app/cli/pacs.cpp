@@ -28,13 +28,17 @@ Status run_echo(Program& program, const ServerChoice& choice) {
   const imaging::PacsServer& server = chosen->server;
   const auto seconds = imaging::pacs_echo(server, program.console.progress());
   if (!seconds) return pass_on(seconds);
-  program.console.say("{} ({}:{}, {}) answers in {:.0f} ms", server.name, server.host, server.port,
-                      server.ae_title, *seconds * 1000.0);
+  const std::string address = server.web ? server.address() : server.address() + ", " + server.ae_title;
+  program.console.say("{} ({}) answers in {:.0f} ms", server.name, address, *seconds * 1000.0);
   Json object;
   object["server"] = server.name;
-  object["host"] = server.host;
-  object["port"] = server.port;
-  object["ae_title"] = server.ae_title;
+  if (server.web) {
+    object["url"] = server.web->url;
+  } else {
+    object["host"] = server.host;
+    object["port"] = server.port;
+    object["ae_title"] = server.ae_title;
+  }
   object["seconds"] = *seconds;
   program.console.result(object);
   return {};

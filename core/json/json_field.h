@@ -33,6 +33,7 @@ class JsonField {
   // Of a list. One after the other they are found at once.
   [[nodiscard]] JsonField at(std::size_t index) const;
   [[nodiscard]] bool is_text() const { return is(JsonDocument::Kind::text); }
+  [[nodiscard]] bool is_number() const { return is(JsonDocument::Kind::number); }
   // Notes a problem where an object holds any other name: a misspelt field must not go unnoticed.
   void only(const std::vector<std::string_view>& names) const;
   // Of an array of at most so many.

@@ -78,7 +78,7 @@ Result<std::unique_ptr<Association>> Association::open(const PacsServer& server,
                                                        const std::stop_token& stop) {
   TIDEMARK_TRY(check_pacs_server(server));
   TIDEMARK_TRY(set_up_network());
-  const std::string peer = fmt::format("PACS {} ({}:{})", server.name, server.host, server.port);
+  const std::string peer = fmt::format("PACS {} ({})", server.name, server.address());
   const std::chrono::seconds patience(server.timeout_seconds);
   const auto address = resolve_host(server.host, patience, stop);
   if (!address && address.error().kind == ErrorKind::cancelled) return pass_on(address);

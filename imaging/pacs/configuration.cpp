@@ -11,6 +11,7 @@
 #include "core/json/json_field.h"
 #include "core/json/json_text.h"
 #include "core/site_folder.h"
+#include "imaging/pacs/web/web_address.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr JsonLimits kLimits{.bytes = std::size_t{1} << 20, .depth = 8};
 constexpr std::size_t kMostServers = 100;
+constexpr std::size_t kLongestAddress = 2048;
 constexpr std::int64_t kMebibyte = std::int64_t{1} << 20;
 
 // A title of an application entity (DICOM PS3.5 6.2, AE).
@@ -38,23 +40,38 @@ bool is_host(const std::string& host) {
 // The fault of a server: the field and the reason; an empty field when there is none.
 struct Fault {
   const char* field = "";
-  const char* reason = "";
+  std::string reason = {};
 };
-Fault fault_of(const PacsServer& server) {
-  if (server.name.empty()) return {"name", "is empty"};
+
+Fault fault_of_web(const PacsWeb& web, bool has_tls) {
+  if (std::string fault = fault_of_address(web.url); !fault.empty()) return {"url", std::move(fault)};
+  if (!web.user.empty() && web.secret.empty()) return {"user", "has no secret"};
+  const bool is_plain = !is_encrypted(web.url);
+  if (is_plain && has_tls) return {"tls", "the url begins with http://, which is not encrypted"};
+  if (is_plain && !web.secret.empty() && !is_on_this_machine(web.url)) {
+    return {"secret", "would cross the network in the clear: the url must begin with https://"};
+  }
+  return {};
+}
+
+Fault fault_of_dicom(const PacsServer& server) {
   if (!is_host(server.host)) return {"host", "is neither a host name nor an IPv4 address"};
   if (server.port < 1 || server.port > 65535) return {"port", "is not within 1 to 65535"};
   if (!is_ae_title(server.ae_title)) return {"ae_title", "is not 1 to 16 ASCII characters"};
   if (!is_ae_title(server.own_ae_title)) return {"own_ae_title", "is not 1 to 16 ASCII characters"};
   if (server.move_port < 1 || server.move_port > 65535) return {"move_port", "is not within 1 to 65535"};
-  if (server.timeout_seconds < 1 || server.timeout_seconds > 3600)
-    return {"timeout_seconds", "is not within 1 to 3600"};
-  if (!server.tls) return {};
-  if (server.tls->certificate.empty() != server.tls->key.empty())
-    return {"tls", "certificate and key go together"};
-  if (server.retrieve == PacsServer::Retrieve::move && server.tls->certificate.empty())
+  if (server.retrieve == PacsServer::Retrieve::move && server.tls && server.tls->certificate.empty())
     return {"tls", "retrieving by move needs a certificate and its key"};
   return {};
+}
+
+Fault fault_of(const PacsServer& server) {
+  if (server.name.empty()) return {"name", "is empty"};
+  if (server.timeout_seconds < 1 || server.timeout_seconds > 3600)
+    return {"timeout_seconds", "is not within 1 to 3600"};
+  if (server.tls && server.tls->certificate.empty() != server.tls->key.empty())
+    return {"tls", "certificate and key go together"};
+  return server.web ? fault_of_web(*server.web, server.tls.has_value()) : fault_of_dicom(server);
 }
 
 fs::path read_path(const JsonField& parent, const char* key, const fs::path& folder) {
@@ -73,22 +90,40 @@ PacsTls read_tls(const JsonField& field, const fs::path& folder) {
   return tls;
 }
 
-PacsServer read_server(const JsonField& field, const fs::path& folder) {
+void read_whole(const JsonField& parent, const char* key, int high, int& value) {
+  if (parent.has(key)) value = static_cast<int>(parent.at(key).integer(1, high));
+}
+
+void read_dicom_server(const JsonField& field, PacsServer& server) {
   field.only({"name", "host", "port", "ae_title", "own_ae_title", "retrieve", "move_port", "timeout_seconds",
               "tls"});
-  PacsServer server;
-  server.name = field.at("name").text(100);
   server.host = field.at("host").text(253);
   server.ae_title = field.at("ae_title").text(16);
-  const auto whole = [&](const char* key, int high, int& value) {
-    if (field.has(key)) value = static_cast<int>(field.at(key).integer(1, high));
-  };
-  whole("port", 65535, server.port);
-  whole("move_port", 65535, server.move_port);
-  whole("timeout_seconds", 3600, server.timeout_seconds);
+  read_whole(field, "port", 65535, server.port);
+  read_whole(field, "move_port", 65535, server.move_port);
   if (field.has("own_ae_title")) server.own_ae_title = field.at("own_ae_title").text(16);
   if (field.has("retrieve") && field.at("retrieve").word({"get", "move"}) == 1)
     server.retrieve = PacsServer::Retrieve::move;
+}
+
+PacsWeb read_web(const JsonField& field, const fs::path& folder) {
+  field.only({"name", "url", "user", "secret", "timeout_seconds", "tls"});
+  PacsWeb web;
+  web.url = field.at("url").text(kLongestAddress);
+  web.secret = read_path(field, "secret", folder);
+  if (field.has("user")) web.user = field.at("user").text(253);
+  return web;
+}
+
+PacsServer read_server(const JsonField& field, const fs::path& folder) {
+  PacsServer server;
+  server.name = field.at("name").text(100);
+  if (field.has("url")) {
+    server.web = read_web(field, folder);
+  } else {
+    read_dicom_server(field, server);
+  }
+  read_whole(field, "timeout_seconds", 3600, server.timeout_seconds);
   if (field.has("tls")) server.tls = read_tls(field.at("tls"), folder);
   if (!field.good()) return server;
   if (const Fault fault = fault_of(server); *fault.field != '\0') {
@@ -125,14 +160,18 @@ Result<std::string> text_of(const fs::path& file) {
 }
 
 Json to_json(const PacsServer& server) {
-  Json json{{"name", server.name},
-            {"host", server.host},
-            {"port", server.port},
-            {"ae_title", server.ae_title},
-            {"own_ae_title", server.own_ae_title},
-            {"retrieve", server.retrieve == PacsServer::Retrieve::get ? "get" : "move"},
-            {"move_port", server.move_port},
-            {"timeout_seconds", server.timeout_seconds}};
+  Json json{{"name", server.name}, {"timeout_seconds", server.timeout_seconds}};
+  if (server.web) {
+    json.update(
+        {{"url", server.web->url}, {"user", server.web->user}, {"secret", server.web->secret.string()}});
+  } else {
+    json.update({{"host", server.host},
+                 {"port", server.port},
+                 {"ae_title", server.ae_title},
+                 {"own_ae_title", server.own_ae_title},
+                 {"retrieve", server.retrieve == PacsServer::Retrieve::get ? "get" : "move"},
+                 {"move_port", server.move_port}});
+  }
   if (server.tls) {
     json["tls"] = {{"ca", server.tls->ca.string()},
                    {"certificate", server.tls->certificate.string()},
@@ -151,6 +190,10 @@ Json to_json(const PacsLimits& limits) {
 }
 
 }  // namespace
+
+std::string PacsServer::address() const {
+  return web ? web->url : fmt::format("{}:{}", host, port);
+}
 
 Result<PacsServer> PacsConfiguration::server(const std::string& name) const {
   std::string known;

@@ -22,6 +22,15 @@ struct PacsTls {
   bool operator==(const PacsTls&) const = default;
 };
 
+// The way to a server by DICOMweb.
+struct PacsWeb {
+  std::string url;               // of the service: "https://pacs.example/dicom-web"
+  std::string user;              // whose password the secret is; empty: it is a token
+  std::filesystem::path secret;  // a file with a password or a token in its only line; may be empty
+
+  bool operator==(const PacsWeb&) const = default;
+};
+
 struct PacsServer {
   enum class Retrieve {
     get,   // objects come on our own connection (C-GET)
@@ -37,6 +46,10 @@ struct PacsServer {
   int move_port = 11112;
   int timeout_seconds = 30;  // how long the server may take to answer, and to send its next 64 KiB
   std::optional<PacsTls> tls;
+  std::optional<PacsWeb> web = {};  // instead of DICOM's own protocol: host to move_port count for nothing
+
+  // "pacs.example:104", or the url.
+  [[nodiscard]] std::string address() const;
 
   bool operator==(const PacsServer&) const = default;
 };

@@ -6,6 +6,7 @@
 #include "core/without_exceptions.h"
 #include "imaging/pacs/association.h"
 #include "imaging/pacs/services.h"
+#include "imaging/pacs/web/web_services.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -41,7 +42,8 @@ Result<double> echo(const PacsServer& server, const Progress& progress) {
 }  // namespace
 
 Result<double> pacs_echo(const PacsServer& server, const Progress& progress) {
-  return without_exceptions([&] { return echo(server, progress); });
+  return without_exceptions(
+      [&] { return server.web ? echo_by_web(server, progress) : echo(server, progress); });
 }
 
 }  // namespace tidemark::imaging

@@ -3,15 +3,16 @@
 #include <dcmtk/dcmnet/dimse.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "core/without_exceptions.h"
 #include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/element_text.h"
 #include "imaging/pacs/answer_text.h"
 #include "imaging/pacs/association.h"
+#include "imaging/pacs/found_answer.h"
 #include "imaging/pacs/services.h"
 #include "imaging/pacs/storage_classes.h"
+#include "imaging/pacs/web/web_services.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -21,10 +22,9 @@ constexpr std::size_t kLongestKey = 64;  // characters (DICOM PS3.5 6.2, LO)
 // The query: attributes to match, and empty ones to be returned.
 class Question {
  public:
-  explicit Question(const char* level) { put(DCM_QueryRetrieveLevel, level); }
-  void put(const DcmTagKey& key, const std::string& value = {}) {
-    dataset_.putAndInsertString(DcmTag(key), value.c_str());
-    is_ascii_ = is_ascii_ && std::all_of(value.begin(), value.end(), [](char c) { return (c & 0x80) == 0; });
+  Question(const char* level, const QueryKeys& keys) {
+    put(DCM_QueryRetrieveLevel, level);
+    for (const auto& [key, value] : keys) put(key, value);
   }
   DcmDataset& dataset() {
     if (!is_ascii_) dataset_.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 192");
@@ -32,24 +32,25 @@ class Question {
   }
 
  private:
+  void put(const DcmTagKey& key, const std::string& value) {
+    dataset_.putAndInsertString(DcmTag(key), value.c_str());
+    is_ascii_ = is_ascii_ && std::all_of(value.begin(), value.end(), [](char c) { return (c & 0x80) == 0; });
+  }
+
   DcmDataset dataset_;
   bool is_ascii_ = true;
 };
 
 // An answer, in UTF-8 as far as its character sets are known.
-class FoundAnswer {
+class DatasetAnswer final : public FoundAnswer {
  public:
-  explicit FoundAnswer(DcmDataset& dataset)
+  explicit DatasetAnswer(DcmDataset& dataset)
       : dataset_(dataset),
         character_set_(element_text(dataset, DCM_SpecificCharacterSet).substr(0, kLongestCharacterSet)) {}
-  [[nodiscard]] std::string text(const DcmTagKey& key) const {
+  [[nodiscard]] std::string text(const DcmTagKey& key) const override {
     const std::string value = element_text(dataset_, key).substr(0, kLongestRead);
     if (character_set_.empty()) return clean_text(value);
     return clean_text(in_utf8(value, character_set_, DcmTag(key).getEVR() == EVR_PN ? "^=\\" : "\\"));
-  }
-  [[nodiscard]] std::string uid(const DcmTagKey& key) const {
-    std::string value = text(key);
-    return is_uid(value) ? value : std::string();
   }
 
  private:
@@ -76,10 +77,8 @@ Result<std::string> date_range(const std::string& from, const std::string& to) {
   return dicom_date(from).value_or("") + "-" + dicom_date(to).value_or("");
 }
 
-using TakeAnswer = std::function<bool(const FoundAnswer&)>;  // false: that was enough
-
 // Asks and takes answer by answer. True when the server had more answers than were taken.
-Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer& take,
+Result<bool> ask(const PacsServer& server, Question question, const TakeAnswer& take,
                  const Progress& progress) {
   progress(-1.0, "asking the server");
   const Proposal proposal{UID_FINDStudyRootQueryRetrieveInformationModel,
@@ -120,7 +119,7 @@ Result<bool> ask(const PacsServer& server, Question& question, const TakeAnswer&
     auto data = association.receive_data();
     if (!data) return pass_on(data);
     association.watch().completed_message();
-    if (!take(FoundAnswer(**data))) return true;  // the association is aborted
+    if (!take(DatasetAnswer(**data))) return true;  // the association is aborted
   }
 }
 
@@ -152,20 +151,27 @@ PacsSeries series_of(const FoundAnswer& answer, const std::string& study_uid) {
   return series;
 }
 
+// What is asked, for both ways of asking.
+struct Query {
+  const char* level;     // "STUDY"
+  std::string resource;  // "studies"
+  QueryKeys keys;
+};
+
 template <class Entry, class Read>
-Result<Found<Entry>> collect(const PacsServer& server, Question& question, const PacsLimits& limits,
+Result<Found<Entry>> collect(const PacsServer& server, const Query& query, const PacsLimits& limits,
                              const Progress& progress, const Read& read) {
   Found<Entry> found;
   std::int64_t answers = 0;
-  const auto more = ask(
-      server, question,
-      [&](const FoundAnswer& answer) {
-        if (++answers > limits.answers) return false;
-        Entry entry = read(answer);
-        if (!entry.uid.empty()) found.entries.push_back(std::move(entry));
-        return true;
-      },
-      progress);
+  const TakeAnswer take = [&](const FoundAnswer& answer) {
+    if (++answers > limits.answers) return false;
+    Entry entry = read(answer);
+    if (!entry.uid.empty()) found.entries.push_back(std::move(entry));
+    return true;
+  };
+  const auto more = server.web
+                        ? ask_by_web(server, query.resource, query.keys, limits.answers, take, progress)
+                        : ask(server, Question(query.level, query.keys), take, progress);
   if (!more) return pass_on(more);
   found.more = *more;
   return found;
@@ -190,17 +196,18 @@ Result<Found<PacsStudy>> find_studies(const PacsServer& server, const StudyQuery
     }
     auto dates = date_range(query.date_from, query.date_to);
     if (!dates) return pass_on(dates);
-    Question question("STUDY");
-    question.put(DCM_StudyInstanceUID, query.uid);
-    question.put(DCM_PatientName, query.patient_name);
-    question.put(DCM_PatientID, query.patient_id);
-    question.put(DCM_StudyDate, *dates);
-    question.put(DCM_ModalitiesInStudy, query.modality);
-    question.put(DCM_StudyDescription, query.description);
-    question.put(DCM_PatientBirthDate);
-    question.put(DCM_NumberOfStudyRelatedSeries);
-    question.put(DCM_NumberOfStudyRelatedInstances);
-    return collect<PacsStudy>(server, question, limits, progress, study_of);
+    const Query asked{"STUDY",
+                      "studies",
+                      {{DCM_StudyInstanceUID, query.uid},
+                       {DCM_PatientName, query.patient_name},
+                       {DCM_PatientID, query.patient_id},
+                       {DCM_StudyDate, *dates},
+                       {DCM_ModalitiesInStudy, query.modality},
+                       {DCM_StudyDescription, query.description},
+                       {DCM_PatientBirthDate, ""},
+                       {DCM_NumberOfStudyRelatedSeries, ""},
+                       {DCM_NumberOfStudyRelatedInstances, ""}}};
+    return collect<PacsStudy>(server, asked, limits, progress, study_of);
   });
 }
 
@@ -213,16 +220,17 @@ Result<Found<PacsSeries>> find_pacs_series(const PacsServer& server, const Serie
          {std::pair{"modality", &query.modality}, {"description", &query.description}}) {
       TIDEMARK_TRY(check_key(name, *value));
     }
-    Question question("SERIES");
-    question.put(DCM_StudyInstanceUID, query.study_uid);
-    question.put(DCM_SeriesInstanceUID);
-    question.put(DCM_Modality, query.modality);
-    question.put(DCM_SeriesDescription, query.description);
-    question.put(DCM_SeriesNumber);
-    question.put(DCM_SeriesDate);
-    question.put(DCM_BodyPartExamined);
-    question.put(DCM_NumberOfSeriesRelatedInstances);
-    return collect<PacsSeries>(server, question, limits, progress,
+    const Query asked{"SERIES",
+                      "studies/" + query.study_uid + "/series",
+                      {{DCM_StudyInstanceUID, query.study_uid},
+                       {DCM_SeriesInstanceUID, ""},
+                       {DCM_Modality, query.modality},
+                       {DCM_SeriesDescription, query.description},
+                       {DCM_SeriesNumber, ""},
+                       {DCM_SeriesDate, ""},
+                       {DCM_BodyPartExamined, ""},
+                       {DCM_NumberOfSeriesRelatedInstances, ""}}};
+    return collect<PacsSeries>(server, asked, limits, progress,
                                [&](const FoundAnswer& answer) { return series_of(answer, query.study_uid); });
   });
 }

@@ -6,6 +6,7 @@
 
 #include "imaging/guard/guarded.h"
 #include "imaging/pacs/checked_object.h"
+#include "imaging/pacs/storage_classes.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -70,31 +71,34 @@ Status RetrievalFolder::grown(std::int64_t bytes) {
   return check_free_space();
 }
 
-Status RetrievalFolder::look_into(const fs::path& object, const std::string& sop_class,
-                                  const std::string& sop_instance) const {
+Result<std::string> RetrievalFolder::look_into(const fs::path& object,
+                                               const std::optional<Announced>& announced) const {
   const auto identity = check_object(object);
   // Without the file's name, which is only a number.
   if (!identity) return fail(ErrorKind::input, "{}", without_path(identity.error().message, object));
-  if (identity->sop_class != sop_class || identity->sop_instance != sop_instance) {
+  if (!is_storage_class(identity->sop_class)) {
+    return fail(ErrorKind::input, "is of a class that was not asked for");
+  }
+  if (announced &&
+      (identity->sop_class != announced->sop_class || identity->sop_instance != announced->sop_instance)) {
     return fail(ErrorKind::input, "is another object than was announced");
   }
   if (identity->study != request_.study_uid) return fail(ErrorKind::input, "belongs to another study");
   if (!request_.series_uid.empty() && identity->series != request_.series_uid) {
     return fail(ErrorKind::input, "belongs to another series");
   }
-  return {};
+  return identity->sop_instance;
 }
 
-bool RetrievalFolder::take(const fs::path& object, const std::string& sop_class,
-                           const std::string& sop_instance) {
-  Status sound = look_into(object, sop_class, sop_instance);
-  if (sound && !sync_to_disk(object)) sound = fail(ErrorKind::write, "cannot be written");
+bool RetrievalFolder::take(const fs::path& object, const std::optional<Announced>& announced) {
+  auto instance = look_into(object, announced);
+  if (instance && !sync_to_disk(object)) instance = fail(ErrorKind::write, "cannot be written");
   const std::lock_guard lock(mutex_);
-  if (!sound) {
-    note_refusal(object, sound.error().message);
+  if (!instance) {
+    note_refusal(object, instance.error().message);
     return false;
   }
-  if (!instances_.insert(sop_instance).second) {
+  if (!instances_.insert(*instance).second) {
     note_refusal(object, "came a second time");
     return true;  // the server may believe that it is here: it is
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -35,9 +36,13 @@ class RetrievalFolder {
   Result<std::filesystem::path> next_object();
   Status grown(std::int64_t bytes);  // of any object, since the last time
 
-  // Takes an object that is complete. False, with the reason noted, when it was not asked for.
-  bool take(const std::filesystem::path& object, const std::string& sop_class,
-            const std::string& sop_instance);
+  // Takes an object that is complete. False, with the reason noted, when it was not asked for, or is another
+  // than was announced (where it was).
+  struct Announced {
+    std::string sop_class;
+    std::string sop_instance;
+  };
+  bool take(const std::filesystem::path& object, const std::optional<Announced>& announced = {});
   // Refuses an object.
   void refuse(const std::filesystem::path& object, std::string reason);
 
@@ -53,8 +58,9 @@ class RetrievalFolder {
                   AtomicFolder collected)
       : request_(request), limits_(limits), progress_(progress), collected_(std::move(collected)) {}
   Status check_free_space() const;
-  Status look_into(const std::filesystem::path& object, const std::string& sop_class,
-                   const std::string& sop_instance) const;
+  // Returns its SOP Instance UID.
+  Result<std::string> look_into(const std::filesystem::path& object,
+                                const std::optional<Announced>& announced) const;
   void note_refusal(const std::filesystem::path& object, std::string reason);
 
   const RetrieveRequest request_;

@@ -8,6 +8,7 @@
 #include "imaging/pacs/retrieval.h"
 #include "imaging/pacs/services.h"
 #include "imaging/pacs/storage_classes.h"
+#include "imaging/pacs/web/web_services.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -47,9 +48,10 @@ Result<Retrieved> retrieve_into_folder(const PacsServer& server, const RetrieveR
   auto retrieval_folder = RetrievalFolder::create(request, limits, progress);
   if (!retrieval_folder) return pass_on(retrieval_folder);
   progress(-1.0, "calling the server");
-  const auto missing = server.retrieve == PacsServer::Retrieve::get
-                           ? retrieve_by_get(server, request, limits, **retrieval_folder, progress.stop)
-                           : retrieve_by_move(server, request, limits, **retrieval_folder, progress.stop);
+  const auto way = server.web                                     ? retrieve_by_web
+                   : server.retrieve == PacsServer::Retrieve::get ? retrieve_by_get
+                                                                  : retrieve_by_move;
+  const auto missing = way(server, request, limits, **retrieval_folder, progress.stop);
   if (progress.cancelled()) return cancelled_error();
   if (!missing) return pass_on(missing);
   return (*retrieval_folder)->keep(*missing);

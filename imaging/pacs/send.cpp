@@ -10,18 +10,14 @@
 #include "imaging/guard/dicom/transfer_syntaxes.h"
 #include "imaging/guard/guarded.h"
 #include "imaging/pacs/association.h"
-#include "imaging/pacs/checked_object.h"
+#include "imaging/pacs/outgoing.h"
 #include "imaging/pacs/services.h"
+#include "imaging/pacs/web/web_services.h"
 
 namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outgoing {
-  fs::path file;
-  ObjectIdentity identity;
-};
 
 bool is_compressed(const std::string& transfer_syntax) {
   const TransferSyntax* syntax = find_transfer_syntax(transfer_syntax);
@@ -98,27 +94,49 @@ Result<std::uint16_t> send_object(Association& association, int context, const O
   return message.msg.CStoreRSP.DimseStatus;
 }
 
+class DicomSender final : public ObjectSender {
+ public:
+  explicit DicomSender(std::unique_ptr<Association> association) : association_(std::move(association)) {}
+
+  Result<std::string> send(const Outgoing& one, const CheckedObject& object) override {
+    const std::string& syntax = one.identity.transfer_syntax;
+    const int context = context_for(*association_, one.identity);
+    if (context == 0) {
+      const char* name = dcmFindNameOfUID(syntax.c_str());
+      return fmt::format("the server does not take it as it is encoded ({})",
+                         name != nullptr ? name : syntax.c_str());
+    }
+    const auto status = send_object(*association_, context, one.identity, object.parsed.dataset());
+    if (!status) return pass_on(status);
+    if (*status == STATUS_Success || DICOM_WARNING_STATUS(*status)) return std::string();
+    return fmt::format("the server refuses it (status {:04X})", *status);
+  }
+  void end() override { association_->release(); }
+
+ private:
+  std::unique_ptr<Association> association_;
+};
+
+Result<std::unique_ptr<ObjectSender>> open_dicom_sender(const PacsServer& server,
+                                                        const std::vector<Outgoing>& outgoing,
+                                                        const std::stop_token& stop) {
+  const auto proposals = proposals_for(outgoing);
+  if (!proposals) return pass_on(proposals);
+  auto opened = Association::open(server, *proposals, stop);
+  if (!opened) return pass_on(opened);
+  return std::make_unique<DicomSender>(std::move(*opened));
+}
+
 // The reason why the object was not sent; empty when it was, and `bytes` has grown by its file's. Fails where
 // the conversation cannot go on.
-Result<std::string> send_one(Association& association, const Outgoing& one, std::int64_t& bytes) {
-  const std::string& syntax = one.identity.transfer_syntax;
-  const int context = context_for(association, one.identity);
-  if (context == 0) {
-    const char* name = dcmFindNameOfUID(syntax.c_str());
-    return fmt::format("the server does not take it as it is encoded ({})",
-                       name != nullptr ? name : syntax.c_str());
-  }
+Result<std::string> send_one(ObjectSender& sender, const Outgoing& one, std::int64_t& bytes) {
   // Of many files not all can stay open since they were looked into.
   const auto object = load_checked_object(one.file);
   if (!object) return without_path(object.error().message, one.file);
   if (object->identity != one.identity) return std::string("it is not what it was a moment ago");
-  const auto status = send_object(association, context, one.identity, object->parsed.dataset());
-  if (!status) return pass_on(status);
-  if (*status == STATUS_Success || DICOM_WARNING_STATUS(*status)) {
-    bytes += object->parsed.bytes().size();
-    return std::string();
-  }
-  return fmt::format("the server refuses it (status {:04X})", *status);
+  auto reason = sender.send(one, *object);
+  if (reason && reason->empty()) bytes += object->parsed.bytes().size();
+  return reason;
 }
 
 Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& files,
@@ -128,15 +146,13 @@ Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& fil
   const auto outgoing = look_into(files, sent, progress);
   if (!outgoing) return pass_on(outgoing);
   if (outgoing->empty()) return sent;
-  const auto proposals = proposals_for(*outgoing);
-  if (!proposals) return pass_on(proposals);
-  auto opened = Association::open(server, *proposals, progress.stop);
-  if (!opened) return pass_on(opened);
-  Association& association = **opened;
+  const auto sender = server.web ? open_web_sender(server, progress.stop)
+                                 : open_dicom_sender(server, *outgoing, progress.stop);
+  if (!sender) return pass_on(sender);
   std::size_t done = 0;
   for (const Outgoing& one : *outgoing) {
     if (progress.cancelled()) return cancelled_error();
-    auto reason = send_one(association, one, sent.bytes);
+    auto reason = send_one(**sender, one, sent.bytes);
     if (!reason) return pass_on(reason);
     if (reason->empty()) {
       ++sent.objects;
@@ -146,7 +162,7 @@ Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& fil
     progress(0.2 + 0.8 * static_cast<double>(++done) / static_cast<double>(outgoing->size()),
              "sending objects");
   }
-  association.release();
+  (*sender)->end();
   return sent;
 }
 

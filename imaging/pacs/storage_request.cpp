@@ -81,7 +81,7 @@ Status answer_storage_request(Association& association, int context, const T_DIM
     retrieval_folder.refuse(*object, "is of a class that was not asked for");
     return respond(association, context, store, STATUS_STORE_Refused_SOPClassNotSupported);
   }
-  const bool taken = retrieval_folder.take(*object, sop_class, store.AffectedSOPInstanceUID);
+  const bool taken = retrieval_folder.take(*object, {{sop_class, store.AffectedSOPInstanceUID}});
   return respond(association, context, store,
                  taken ? STATUS_Success : STATUS_STORE_Error_DataSetDoesNotMatchSOPClass);
 }

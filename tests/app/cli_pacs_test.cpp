@@ -29,32 +29,40 @@ class CliPacsTest : public QObject {
   }
 
  private slots:
+  void a_phantom_goes_there_and_back_data() {
+    QTest::addColumn<bool>("by_web");
+    QTest::newRow("dcmqrscp") << false;
+    QTest::newRow("DICOMweb") << true;
+  }
   void a_phantom_goes_there_and_back() {
-    const auto archive = start_dcmqrscp();
+    QFETCH(bool, by_web);
+    const auto archive = by_web ? nullptr : start_dcmqrscp();
+    const auto web_archive = by_web ? std::make_unique<WebArchive>(nullptr, "reader") : nullptr;
+    const imaging::PacsServer server = by_web ? web_archive->web_server() : archive->server();
+    const QString name = QString::fromStdString(server.name);
     const TemporaryFolder folder;
-    const QStringList use{"--servers", servers(folder, archive->server()), "--json"};
-    const Outcome echo = run_cli(QStringList{"pacs", "echo", "dcmqrscp"} + use);
+    const QStringList use{"--servers", servers(folder, server), "--json"};
+    const Outcome echo = run_cli(QStringList{"pacs", "echo", name} + use);
     QVERIFY2(echo.code == 0, echo.told());
     QVERIFY(json_of(echo.out)["seconds"].toDouble() > 0.0);
 
     QCOMPARE(run_cli({"phantom", "sphere", "--out", text(folder / "sphere")}).code, 0);
-    const Outcome send =
-        run_cli(QStringList{"pacs", "send", "dcmqrscp", text(folder / "sphere/series")} + use);
+    const Outcome send = run_cli(QStringList{"pacs", "send", name, text(folder / "sphere/series")} + use);
     QVERIFY2(send.code == 0, send.told());
     const int objects = json_of(send.out)["objects"].toInt();
     QVERIFY(objects > 10);
 
-    const Outcome find = run_cli(QStringList{"pacs", "find", "dcmqrscp", "--patient-name", "Phan*"} + use);
+    const Outcome find = run_cli(QStringList{"pacs", "find", name, "--patient-name", "Phan*"} + use);
     QVERIFY2(find.code == 0, find.told());
     const QJsonArray studies = json_of(find.out)["studies"].toArray();
     QCOMPARE(studies.size(), 1);
     QCOMPARE(json_of(find.out)["more"].toBool(true), false);
     const QString study = studies[0].toObject()["uid"].toString();
-    const Outcome find_series = run_cli(QStringList{"pacs", "find", "dcmqrscp", "--study", study} + use);
+    const Outcome find_series = run_cli(QStringList{"pacs", "find", name, "--study", study} + use);
     QVERIFY2(find_series.code == 0, find_series.told());
     const QString series = json_of(find_series.out)["series"].toArray()[0].toObject()["uid"].toString();
 
-    const Outcome get = run_cli(QStringList{"pacs", "get", "dcmqrscp", "--study", study, "--series", series,
+    const Outcome get = run_cli(QStringList{"pacs", "get", name, "--study", study, "--series", series,
                                             "--out", text(folder / "back")} +
                                 use);
     QVERIFY2(get.code == 0, get.told());
@@ -73,8 +81,9 @@ class CliPacsTest : public QObject {
     std::filesystem::create_directory(folder / "temporary");
     RunOptions options;
     options.environment.insert("TMPDIR", text(folder / "temporary"));
-    const Outcome send = run_cli(
-        QStringList{"pacs", "send", "dcmqrscp", text(folder / "sphere/series"), "--deidentify"} + use, options);
+    const Outcome send =
+        run_cli(QStringList{"pacs", "send", "dcmqrscp", text(folder / "sphere/series"), "--deidentify"} + use,
+                options);
     QVERIFY2(send.code == 0, send.told());
     const QJsonObject told = json_of(send.out);
     QVERIFY(told["objects"].toInt() > 10);

@@ -135,6 +135,13 @@ void write_compressed_dicom() {
   write("dicom_frame", "found-jpeg-tem", "\x01\x11\x0d\xff\xd8" + rest);
 }
 
+void write_multiparts() {
+  const std::string part = "--x\r\nContent-Type: application/dicom\r\n\r\n";
+  write("multipart", "two", part + "first\r\n" + part + "second\r\n--x--\r\n");
+  write("multipart", "preamble", "before\r\n" + part + "\r\n--x and \r\n-- in it\r\n--x--after");
+  write("multipart", "cut-off", part + "first\r\n--x \t\r\n\r\nsec");
+}
+
 void write_csa_headers() {
   const std::vector<std::pair<std::string, std::vector<std::string>>> values{
       {"EchoLinePosition", {"32", "", "33"}},
@@ -383,6 +390,7 @@ int main(int argc, char** argv) {
   write_dicom_of_several_slices();
   write_compressed_dicom();
   write_csa_headers();
+  write_multiparts();
   write_media_directories();
   write_archives();
   write_volumes();

@@ -12,6 +12,7 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/path_line.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -29,6 +30,18 @@ int entered(const NumberBox& box) {
 
 std::string entered(const QLineEdit& line) {
   return line.text().trimmed().toStdString();
+}
+
+QLineEdit* add_line(Form& form, const QString& label, const QString& tip) {
+  auto* line = new QLineEdit;
+  form.row(label, line, tip);
+  return line;
+}
+
+NumberBox* add_count(Form& form, const QString& label, int low, int high, const QString& tip) {
+  auto* count = whole_number(low, high);
+  form.row(label, count, tip);
+  return count;
 }
 
 }  // namespace
@@ -106,68 +119,92 @@ QWidget* ServersDialog::make_list() {
 QWidget* ServersDialog::make_entry() {
   entry_ = new QWidget(this);
   Form form(entry_);
-  const auto line = [&](const QString& label, const QString& tip) {
-    auto* one = new QLineEdit;
-    form.row(label, one, tip);
-    return one;
-  };
-  const auto count = [&](const QString& label, int low, int high, const QString& tip) {
-    auto* one = whole_number(low, high);
-    form.row(label, one, tip);
-    return one;
-  };
-  name_ = line(tr("Name"), tr("By which you choose it"));
-  host_ = line(tr("Host"), tr("Its name in the network, or its IPv4 address"));
-  port_ = count(tr("Port"), 1, 65535, tr("104 and 11112 are usual, 2762 with TLS"));
-  ae_title_ = line(tr("AE title"), tr("The server's title, at most 16 characters"));
-  own_ae_title_ = line(tr("Our AE title"), tr("Under which the server knows this workstation"));
-  for (QLineEdit* title : {ae_title_, own_ae_title_}) title->setMaxLength(16);
-  retrieve_ = form.choice(tr("Series come"), tr("How the server sends the series"));
-  retrieve_->addItem(tr("on our connection (C-GET)"));
-  retrieve_->addItem(tr("by calls from the server (C-MOVE)"));
-  move_port_ =
-      count(tr("Port for calls"), 1, 65535,
-            tr("Where the server calls this machine; it must know our AE title, host and this port"));
-  timeout_ = count(tr("Patience"), 1, 3600, tr("Seconds that it may take to answer"));
+  rows_ = form.layout();
+  name_ = add_line(form, tr("Name"), tr("By which you choose it"));
+  protocol_ = form.choice(tr("Protocol"), tr("What the server speaks"));
+  protocol_->addItem(tr("DICOM"));
+  protocol_->addItem(tr("DICOMweb"));
+  add_web_rows(form);
+  add_dicom_rows(form);
+  timeout_ = add_count(form, tr("Patience"), 1, 3600, tr("Seconds that it may take to answer"));
   timeout_->setSuffix(tr(" s"));
-  connect(retrieve_, &QComboBox::currentIndexChanged, move_port_,
-          [this](int way) { move_port_->setEnabled(way == 1); });
   form.wide(make_tls());
   test_ = new QPushButton(tr("&Test"));
-  test_->setToolTip(tr("Asks the server whether it answers (C-ECHO)"));
+  test_->setToolTip(tr("Asks the server whether it answers"));
   test_->setAutoDefault(false);
   connect(test_, &QPushButton::clicked, this, &ServersDialog::test);
   auto* row = new QHBoxLayout;
   row->addStretch(1);
   row->addWidget(test_);
   form.wide(row);
+  connect(protocol_, &QComboBox::currentIndexChanged, this, &ServersDialog::show_protocol);
+  show_protocol();
   return entry_;
 }
 
+void ServersDialog::add_web_rows(Form& form) {
+  url_ = add_line(form, tr("Address"), tr("Of the service: https://pacs.example/dicom-web"));
+  user_ = add_line(form, tr("User"), tr("Whose password the secret is; empty: it is a token"));
+  secret_ =
+      file_line(tr("Secret"), tr("A file with the password or the token in its only line; may be empty"),
+                tr("All files (*)"), form);
+}
+
+void ServersDialog::add_dicom_rows(Form& form) {
+  host_ = add_line(form, tr("Host"), tr("Its name in the network, or its IPv4 address"));
+  port_ = add_count(form, tr("Port"), 1, 65535, tr("104 and 11112 are usual, 2762 with TLS"));
+  ae_title_ = add_line(form, tr("AE title"), tr("The server's title, at most 16 characters"));
+  own_ae_title_ = add_line(form, tr("Our AE title"), tr("Under which the server knows this workstation"));
+  for (QLineEdit* title : {ae_title_, own_ae_title_}) title->setMaxLength(16);
+  retrieve_ = form.choice(tr("Series come"), tr("How the server sends the series"));
+  retrieve_->addItem(tr("on our connection (C-GET)"));
+  retrieve_->addItem(tr("by calls from the server (C-MOVE)"));
+  move_port_ =
+      add_count(form, tr("Port for calls"), 1, 65535,
+                tr("Where the server calls this machine; it must know our AE title, host and this port"));
+  connect(retrieve_, &QComboBox::currentIndexChanged, move_port_,
+          [this](int way) { move_port_->setEnabled(way == 1); });
+}
+
+void ServersDialog::show_protocol() {
+  const bool is_web = protocol_->currentIndex() == 1;
+  // Lines of files stand in a row with their button.
+  for (QWidget* widget : std::initializer_list<QWidget*>{url_, user_, secret_->parentWidget()}) {
+    rows_->setRowVisible(widget, is_web);
+  }
+  for (QWidget* widget :
+       std::initializer_list<QWidget*>{host_, port_, ae_title_, own_ae_title_, retrieve_, move_port_}) {
+    rows_->setRowVisible(widget, !is_web);
+  }
+  tls_->setTitle(is_web ? tr("Certificates other than the system's") : tr("Encrypted (TLS)"));
+}
+
 QWidget* ServersDialog::make_tls() {
-  tls_ = new QGroupBox(tr("Encrypted (TLS)"));
+  tls_ = new QGroupBox;
   tls_->setCheckable(true);
   Form form(tls_);
   form.layout()->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
+  const QString pem = tr("PEM (*.pem *.crt *.cer *.key);;All files (*)");
   ca_ = file_line(
       tr("Authority"),
-      tr("PEM file of the authority behind the server's certificate; empty: the system's authorities"), form);
-  certificate_ = file_line(tr("Certificate"), tr("Ours, for servers that want one; may be empty"), form);
-  key_ = file_line(tr("Private key"), tr("Of our certificate"), form);
+      tr("PEM file of the authority behind the server's certificate; empty: the system's authorities"), pem,
+      form);
+  certificate_ = file_line(tr("Certificate"), tr("Ours, for servers that want one; may be empty"), pem, form);
+  key_ = file_line(tr("Private key"), tr("Of our certificate"), pem, form);
   verify_ = form.check(tr("Verify the server's certificate"),
                        tr("Without it the connection is encrypted, but the server may be anyone"));
   return tls_;
 }
 
-QLineEdit* ServersDialog::file_line(const QString& label, const QString& tip, Form& form) {
+QLineEdit* ServersDialog::file_line(const QString& label, const QString& tip, const QString& kinds,
+                                    Form& form) {
   auto* choose = new QToolButton;
   choose->setIcon(icon(u"open-file"));
   choose->setToolTip(tr("Choose a file"));
   choose->setAccessibleName(tr("Choose a file: %1").arg(label));
   QLineEdit* line = add_path_line(form, label, tip, choose);
-  connect(choose, &QToolButton::clicked, this, [this, line] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("A file in PEM"), line->text(),
-                                                      tr("PEM (*.pem *.crt *.cer *.key);;All files (*)"));
+  connect(choose, &QToolButton::clicked, this, [this, line, kinds] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Choose a file"), line->text(), kinds);
     if (!file.isEmpty()) line->setText(file);
   });
   return line;
@@ -181,6 +218,11 @@ void ServersDialog::show_entry(int row) {
   const imaging::PacsServer& server = configuration_.servers[static_cast<std::size_t>(row)];
   const auto text = [](const auto& value) { return QString::fromStdString(std::string(value)); };
   name_->setText(text(server.name));
+  protocol_->setCurrentIndex(server.web ? 1 : 0);
+  const imaging::PacsWeb web = server.web.value_or(imaging::PacsWeb{});
+  url_->setText(text(web.url));
+  user_->setText(text(web.user));
+  secret_->setText(text_of(web.secret));
   host_->setText(text(server.host));
   port_->show_value(server.port);
   ae_title_->setText(text(server.ae_title));
@@ -202,6 +244,10 @@ void ServersDialog::keep_entry() {
   if (shown_ < 0 || shown_ >= static_cast<int>(configuration_.servers.size())) return;
   imaging::PacsServer& server = configuration_.servers[static_cast<std::size_t>(shown_)];
   server.name = entered(*name_);
+  server.web.reset();
+  if (protocol_->currentIndex() == 1) {
+    server.web = imaging::PacsWeb{entered(*url_), entered(*user_), path_of(secret_->text().trimmed())};
+  }
   server.host = entered(*host_);
   server.port = entered(*port_);
   server.ae_title = entered(*ae_title_);

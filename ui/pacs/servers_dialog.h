@@ -4,6 +4,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
+#include <QFormLayout>
 #include <QGroupBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -30,8 +31,11 @@ class ServersDialog : public QDialog {
  private:
   QWidget* make_list();
   QWidget* make_entry();
+  void add_dicom_rows(Form& form);
+  void add_web_rows(Form& form);
+  void show_protocol();
   QWidget* make_tls();
-  QLineEdit* file_line(const QString& label, const QString& tip, Form& form);
+  QLineEdit* file_line(const QString& label, const QString& tip, const QString& kinds, Form& form);
   void show_entry(int row);
   void keep_entry();  // the entered text becomes the shown server
   void add();
@@ -45,7 +49,12 @@ class ServersDialog : public QDialog {
   int shown_ = -1;
   QListWidget* list_;
   QWidget* entry_ = nullptr;
+  QFormLayout* rows_ = nullptr;  // of the entry
   QLineEdit* name_;
+  QComboBox* protocol_;
+  QLineEdit* url_;
+  QLineEdit* user_;
+  QLineEdit* secret_;
   QLineEdit* host_;
   NumberBox* port_;
   QLineEdit* ae_title_;

@@ -41,27 +41,30 @@ void write_text(const fs::path& file, const std::string& text) {
     qFatal("cannot write %s", file.c_str());
 }
 
+// Orthanc's configuration; `more` ends with a comma.
+std::string orthanc_configuration(const fs::path& folder, const imaging::PacsServer& server,
+                                  const std::string& more, bool calls_by_tls) {
+  return fmt::format(R"({{
+  "Name": "Test", "StorageDirectory": "{0}/storage", "IndexDirectory": "{0}/index", {5}
+  "DicomAet": "ORTHANC", "DicomCheckCalledAet": true, "DicomPort": {1},
+  "DicomModalities": {{ "tidemark": {{ "AET": "{2}", "Host": "127.0.0.1", "Port": {3}, "UseDicomTls": {4} }} }}
+}})",
+                     folder.string(), server.port, kOwnTitle, server.move_port, calls_by_tls, more);
+}
+
 class Orthanc : public Archive {
  public:
   explicit Orthanc(const TlsFiles* tls) {
     server_.name = "orthanc";
     server_.ae_title = "ORTHANC";
     const fs::path configuration = folder_ / "orthanc.json";
-    std::string secret;
+    std::string more = R"("HttpServerEnabled": false, "RemoteAccessAllowed": false, "Plugins": [],)";
     if (tls != nullptr) {
-      secret =
-          fmt::format(R"("DicomTlsEnabled": true, "DicomTlsCertificate": "{}", "DicomTlsPrivateKey": "{}",
+      more += fmt::format(R"("DicomTlsEnabled": true, "DicomTlsCertificate": "{}", "DicomTlsPrivateKey": "{}",
   "DicomTlsTrustedCertificates": "{}",)",
-                      tls->certificate.string(), tls->key.string(), tls->authority.string());
+                          tls->certificate.string(), tls->key.string(), tls->authority.string());
     }
-    write_text(configuration, fmt::format(R"({{
-  "Name": "Test", "StorageDirectory": "{0}/storage", "IndexDirectory": "{0}/index",
-  "HttpServerEnabled": false, "RemoteAccessAllowed": false, "Plugins": [], {5}
-  "DicomAet": "ORTHANC", "DicomCheckCalledAet": true, "DicomPort": {1},
-  "DicomModalities": {{ "tidemark": {{ "AET": "{2}", "Host": "127.0.0.1", "Port": {3}, "UseDicomTls": {4} }} }}
-}})",
-                                          folder_.path().string(), server_.port, kOwnTitle, server_.move_port,
-                                          tls != nullptr, secret));
+    write_text(configuration, orthanc_configuration(folder_.path(), server_, more, tls != nullptr));
     start("Orthanc", {QString::fromStdString(configuration.string())});
   }
 };
@@ -127,6 +130,46 @@ void Archive::start(const QString& program, const QStringList& arguments) {
   QFile log(QString::fromStdString((folder_ / "log.txt").string()));
   static_cast<void>(log.open(QIODevice::ReadOnly));
   qFatal("%s does not serve: %s", qPrintable(program), log.readAll().constData());
+}
+
+WebArchive::WebArchive(const TlsFiles* tls, const std::string& user) {
+  constexpr const char* kPlugin = "/usr/share/orthanc/plugins/libOrthancDicomWeb.so";
+  if (!fs::exists(kPlugin)) qFatal("orthanc-dicomweb is not installed: packaging/dependencies.sh has it");
+  const int port = free_port();
+  const int called = tls != nullptr ? free_port() : port;
+  server_.name = "orthanc";
+  server_.ae_title = "ORTHANC";
+  web_server_.name = "web";
+  web_server_.timeout_seconds = 20;
+  imaging::PacsWeb& web = web_server_.web.emplace();
+  web.url = fmt::format("{}://localhost:{}/dicom-web", tls != nullptr ? "https" : "http", called);
+  std::string more = fmt::format(
+      R"("DefaultEncoding": "Utf8", "HttpServerEnabled": true, "RemoteAccessAllowed": true, "HttpPort": {}, "Plugins": ["{}"],
+  "AuthenticationEnabled": {},)",
+      port, kPlugin, !user.empty());
+  if (!user.empty()) {
+    web.user = user;
+    web.secret = folder_ / "secret.txt";
+    write_text(web.secret, "Grüße & more\n");
+    more += fmt::format(R"("RegisteredUsers": {{ "{}": "Grüße & more" }},)", user);
+  }
+  const fs::path configuration = folder_ / "orthanc.json";
+  write_text(configuration, orthanc_configuration(folder_.path(), server_, more, false));
+  start("Orthanc", {QString::fromStdString(configuration.string())});
+  if (tls != nullptr) start_front(*tls, called, port);
+}
+
+WebArchive::~WebArchive() {
+  front_.kill();
+  front_.waitForFinished(5000);
+}
+
+void WebArchive::start_front(const TlsFiles& tls, int port, int to) {
+  web_server_.tls = imaging::PacsTls{tls.authority, {}, {}, true};
+  front_.start("python3",
+               {TIDEMARK_TLS_FRONT, QString::number(port), QString::number(to),
+                QString::fromStdString(tls.certificate.string()), QString::fromStdString(tls.key.string())});
+  if (!front_.waitForReadyRead(kLongestStart)) qFatal("tls_front.py does not serve");
 }
 
 imaging::PacsServer Archive::server_by_move() const {

@@ -44,6 +44,22 @@ struct TlsFiles {
   std::filesystem::path key;
 };
 std::unique_ptr<Archive> start_orthanc(const TlsFiles* tls = nullptr);
+
+// Orthanc with its plugin for DICOMweb beside DICOM's own protocol.
+class WebArchive : public Archive {
+ public:
+  // By https where there are files for it; with a user's password in a file, which the user needs.
+  WebArchive(const TlsFiles* tls, const std::string& user);
+  ~WebArchive() override;
+  [[nodiscard]] imaging::PacsServer web_server() const { return web_server_; }
+
+ private:
+  // Debian's Orthanc ends when it is asked by https: another program has the certificate, and passes bytes
+  // on.
+  void start_front(const TlsFiles& tls, int port, int to);
+  imaging::PacsServer web_server_;
+  QProcess front_;
+};
 std::unique_ptr<Archive> start_dcmqrscp();
 // By "orthanc" or "dcmqrscp".
 std::unique_ptr<Archive> start_archive(const QString& name);

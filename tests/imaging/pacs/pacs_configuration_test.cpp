@@ -32,6 +32,11 @@ class PacsConfigurationTest : public QObject {
                                      .timeout_seconds = 7,
                                      .tls = imaging::PacsTls{"/ca.pem", "/own.pem", "/key.pem", false}});
     configuration.servers.push_back({.name = "other", .host = "10.0.0.1", .ae_title = "OTHER", .tls = {}});
+    imaging::PacsServer& web = configuration.servers.emplace_back();
+    web.name = "web";
+    web.timeout_seconds = 9;
+    web.tls = imaging::PacsTls{"/ca.pem", {}, {}, true};
+    web.web = imaging::PacsWeb{"https://pacs.example:8043/dicom-web", "reader", "/secret.txt"};
     configuration.limits = {std::int64_t{1} << 20, std::int64_t{2} << 20, 3, std::int64_t{4} << 20, 5};
     const auto file = folder / "new/folder/pacs.json";
     QCOMPARE(failure(imaging::write_pacs_configuration(configuration, file)), QString());
@@ -43,7 +48,8 @@ class PacsConfigurationTest : public QObject {
     const auto unknown = read->server("none");
     QVERIFY(!unknown);
     QCOMPARE(unknown.error().kind, ErrorKind::usage);
-    QVERIFY(unknown.error().message.find("main, other") != std::string::npos);
+    QVERIFY(unknown.error().message.find("main, other, web") != std::string::npos);
+    QCOMPARE(read->server("web")->address(), std::string("https://pacs.example:8043/dicom-web"));
   }
 
   void certificates_lie_beside_the_file_and_verification_is_on() {
@@ -87,6 +93,22 @@ class PacsConfigurationTest : public QObject {
                                 << "own_ae_title: more than 16 bytes are not read";
     QTest::newRow("title with a backslash") << server(R"(, "own_ae_title": "A\\B")")
                                             << "servers[0]: own_ae_title: is not 1 to 16 ASCII characters";
+    const auto web = [](const QByteArray& url, const QByteArray& more = {}) {
+      return "{\"servers\": [{\"name\": \"a\", \"url\": \"" + url + "\"" + more + "}]}";
+    };
+    QTest::newRow("both ways") << server(R"(, "url": "x")")
+                               << "servers[0]: 'host' is no field that is known here";
+    QTest::newRow("no address") << web("pacs") << "servers[0]: url: is no address";
+    QTest::newRow("another protocol") << web("ftp://h/web") << "url: begins with neither";
+    QTest::newRow("a password in the address") << web("https://u:p@h/web") << "url: holds a user";
+    QTest::newRow("a question in the address") << web("https://h/web?x=1") << "url: holds a question";
+    QTest::newRow("a slash at the end") << web("https://h/web/") << "url: ends with a slash";
+    QTest::newRow("a user without a secret")
+        << web("https://h/web", R"(, "user": "u")") << "user: has no secret";
+    QTest::newRow("a secret in the clear")
+        << web("http://h/web", R"(, "secret": "s.txt")") << "secret: would cross the network in the clear";
+    QTest::newRow("TLS in the clear")
+        << web("http://h/web", R"(, "tls": {})") << "tls: the url begins with http://";
     QTest::newRow("host with a blank")
         << QByteArray(R"({"servers": [{"name": "a", "host": "h x", "ae_title": "A"}]})")
         << "servers[0]: host: is neither a host name nor an IPv4 address";

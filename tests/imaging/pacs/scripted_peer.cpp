@@ -97,6 +97,22 @@ bool PeerEnd::send_data(int context, const std::string& data, bool is_last) {
   return write(data_pdus(context, false, data, is_last));
 }
 
+std::string PeerEnd::read_request() {
+  std::string head;
+  std::string byte(1, '\0');
+  while (!head.ends_with("\r\n\r\n")) {
+    if (!read_exactly(byte)) return {};
+    head += byte;
+  }
+  const std::string name = "Content-Length: ";
+  const std::size_t at = head.find(name);
+  if (at != std::string::npos) {
+    std::string body(std::stoul(head.substr(at + name.size())), '\0');
+    if (!read_exactly(body)) return {};
+  }
+  return head;
+}
+
 void PeerEnd::say_nothing() {
   std::string byte(1, '\0');
   while (read_exactly(byte)) {
@@ -139,6 +155,14 @@ imaging::PacsServer ScriptedPeer::server() const {
   server.host = "127.0.0.1";
   server.port = port_;
   server.ae_title = "PEER";
+  server.timeout_seconds = 1;
+  return server;
+}
+
+imaging::PacsServer ScriptedPeer::web_server() const {
+  imaging::PacsServer server;
+  server.name = "peer";
+  server.web = imaging::PacsWeb{fmt::format("http://127.0.0.1:{}/web", port_), {}, {}};
   server.timeout_seconds = 1;
   return server;
 }

@@ -27,6 +27,8 @@ class PeerEnd {
   std::string read_command();
   bool send_command(int context, const std::string& command);
   bool send_data(int context, const std::string& data, bool is_last = true);
+  // The head of an HTTP request; its body is read and dropped.
+  std::string read_request();
   // Until the other side hangs up, or the test ends.
   void say_nothing();
   [[nodiscard]] bool quits() const { return quit_; }
@@ -50,6 +52,7 @@ class ScriptedPeer {
 
   // With a time-out of one second.
   [[nodiscard]] imaging::PacsServer server() const;
+  [[nodiscard]] imaging::PacsServer web_server() const;  // by DICOMweb
 
  private:
   void serve();

@@ -22,6 +22,19 @@ QLineEdit* line(ui::ServersDialog& dialog, const QString& name) {
   qFatal("no line %s", qPrintable(name));
 }
 
+QComboBox* choice(ui::ServersDialog& dialog, const QString& name) {
+  for (QComboBox* one : dialog.findChildren<QComboBox*>()) {
+    if (one->accessibleName() == name) return one;
+  }
+  qFatal("no choice %s", qPrintable(name));
+}
+
+void click_test(ui::ServersDialog& dialog) {
+  for (QPushButton* button : dialog.findChildren<QPushButton*>()) {
+    if (button->text() == "&Test") QTest::mouseClick(button, Qt::LeftButton);
+  }
+}
+
 void click_save(ui::ServersDialog& dialog) {
   QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save), Qt::LeftButton);
 }
@@ -50,9 +63,7 @@ class ServersDialogTest : public QObject {
     for (auto* box : dialog.findChildren<QDoubleSpinBox*>()) {
       if (box->accessibleName() == "Port") box->setValue(peer.server().port);
     }
-    for (QPushButton* button : dialog.findChildren<QPushButton*>()) {
-      if (button->text() == "&Test") QTest::mouseClick(button, Qt::LeftButton);
-    }
+    click_test(dialog);
     QTRY_VERIFY_WITH_TIMEOUT(says(dialog, "The server answers in"), kPatience);
     if (const QString pictures = qEnvironmentVariable("TIDEMARK_SCREENSHOTS"); !pictures.isEmpty())
       QVERIFY(dialog.grab().save(pictures + "/servers.png"));
@@ -64,6 +75,41 @@ class ServersDialogTest : public QObject {
     QCOMPARE(read->servers[0].name, std::string("here"));
     QCOMPARE(read->servers[0].port, peer.server().port);
     QVERIFY(!read->servers[0].tls);
+  }
+
+  void a_server_of_dicomweb_is_entered_tested_and_kept() {
+    const WebArchive archive(nullptr, "reader");
+    const imaging::PacsWeb web = *archive.web_server().web;
+    const TemporaryFolder folder;
+    const auto file = folder / "pacs.json";
+    ui::ServersDialog dialog(file);
+    dialog.show();
+    QVERIFY(line(dialog, "Host")->isVisible() && !line(dialog, "Address")->isVisible());
+    line(dialog, "Name")->setText("web");
+    choice(dialog, "Protocol")->setFocus();
+    QTest::keyClick(choice(dialog, "Protocol"), Qt::Key_Down);
+    QVERIFY(!line(dialog, "Host")->isVisible() && line(dialog, "Address")->isVisible());
+    click_save(dialog);
+    QVERIFY(says(dialog, "url: is no address"));
+    QTest::keyClicks(line(dialog, "Address"), QString::fromStdString(web.url));
+    QTest::keyClicks(line(dialog, "User"), QString::fromStdString(web.user));
+    click_test(dialog);
+    QTRY_VERIFY_WITH_TIMEOUT(says(dialog, "user: has no secret"), kPatience);
+    QTest::keyClicks(line(dialog, "Secret"), QString::fromStdString(web.secret.string()));
+    click_test(dialog);
+    QTRY_VERIFY_WITH_TIMEOUT(says(dialog, "The server answers in"), kPatience);
+    if (const QString pictures = qEnvironmentVariable("TIDEMARK_SCREENSHOTS"); !pictures.isEmpty())
+      QVERIFY(dialog.grab().save(pictures + "/servers-web.png"));
+    click_save(dialog);
+    QCOMPARE(dialog.result(), static_cast<int>(QDialog::Accepted));
+    const auto read = imaging::read_pacs_configuration(file);
+    QCOMPARE(failure(read), QString());
+    QVERIFY(read->servers.size() == 1 && read->servers[0].web == web);
+
+    ui::ServersDialog again(file);
+    again.show();
+    QCOMPARE(line(again, "Address")->text(), QString::fromStdString(web.url));
+    QVERIFY(!line(again, "Host")->isVisible());
   }
 
   void a_port_that_is_no_number_is_not_kept_as_another() {

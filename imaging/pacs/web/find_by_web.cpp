@@ -1,0 +1,117 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include "core/json/json_field.h"
+#include "core/stopwatch.h"
+#include "imaging/pacs/answer_text.h"
+#include "imaging/pacs/web/http_connection.h"
+#include "imaging/pacs/web/web_address.h"
+#include "imaging/pacs/web/web_services.h"
+
+namespace tidemark::imaging {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of the answers to a query
+constexpr std::size_t kMostValues = 1'000;                 // of an attribute
+constexpr std::size_t kMostRead = 8192;  // bytes of a value, of which clean_text() keeps 512
+
+std::string tag_of(const DcmTagKey& key) {
+  return fmt::format("{:04X}{:04X}", key.getGroup(), key.getElement());
+}
+
+// A dataset in the JSON of DICOM (PS3.18, F.2).
+class JsonAnswer final : public FoundAnswer {
+ public:
+  explicit JsonAnswer(JsonField dataset) : dataset_(std::move(dataset)) {}
+  [[nodiscard]] std::string text(const DcmTagKey& key) const override {
+    const std::string tag = tag_of(key);
+    if (!dataset_.has(tag.c_str())) return {};
+    const JsonField attribute = dataset_.at(tag.c_str());
+    if (!attribute.has("Value")) return {};
+    const JsonField values = attribute.at("Value");
+    std::string all;
+    for (std::size_t i = 0; i < values.size(kMostValues); ++i) {
+      all += (i == 0 ? "" : "\\") + value_of(values.at(i));
+    }
+    return clean_text(std::move(all));
+  }
+
+ private:
+  // A name has up to three forms, which are divided by "=" elsewhere.
+  static std::string value_of(const JsonField& value) {
+    if (value.is_text()) return value.text(kMostRead);
+    if (value.is_number()) return fmt::format("{}", value.number());
+    std::string name;
+    std::string divider;
+    for (const char* form : {"Alphabetic", "Ideographic", "Phonetic"}) {
+      if (value.has(form)) name += divider + value.at(form).text(kMostRead);
+      divider += '=';
+      if (value.has(form)) divider = "=";
+    }
+    return name;
+  }
+
+  JsonField dataset_;
+};
+
+// The whole answer; empty where the server has nothing (HTTP 204).
+Result<std::string> text_from(HttpConnection& connection, const std::string& resource) {
+  std::string text;
+  const auto answer = connection.ask({resource, kDicomJson, static_cast<std::int64_t>(kMostBytes)},
+                                     [&](const HttpAnswer&, std::string_view bytes) -> Status {
+                                       text += bytes;
+                                       return {};
+                                     });
+  if (!answer) return pass_on(answer);
+  if (!answer->is_good()) return tl::unexpected<Error>(connection.error(*answer));
+  constexpr int kNoContent = 204;
+  if (answer->status == kNoContent) return std::string();
+  if (answer->content_type.find("json") == std::string::npos) {
+    return fail(ErrorKind::input, "{}: answers with '{}', which is not the JSON of DICOM", connection.peer(),
+                clean_text(answer->content_type.substr(0, 100)));
+  }
+  return text;
+}
+
+std::string question(const std::string& resource, const QueryKeys& keys, std::int64_t limit) {
+  std::string all = fmt::format("{}?limit={}", resource, limit);
+  for (const auto& [key, value] : keys) {
+    all += value.empty() ? "&includefield=" + tag_of(key) : "&" + tag_of(key) + "=" + escaped(value);
+  }
+  return all;
+}
+
+}  // namespace
+
+Result<double> echo_by_web(const PacsServer& server, const Progress& progress) {
+  progress(0.0, "calling the server");
+  const auto connection = HttpConnection::open(server, progress.stop);
+  if (!connection) return pass_on(connection);
+  const Stopwatch stopwatch;
+  // DICOMweb has no service for it.
+  const auto text = text_from(**connection, "studies?limit=1");
+  if (!text) return pass_on(text);
+  return stopwatch.seconds();
+}
+
+Result<bool> ask_by_web(const PacsServer& server, const std::string& resource, const QueryKeys& keys,
+                        std::int64_t most, const TakeAnswer& take, const Progress& progress) {
+  progress(-1.0, "asking the server");
+  const auto connection = HttpConnection::open(server, progress.stop);
+  if (!connection) return pass_on(connection);
+  const auto text = text_from(**connection, question(resource, keys, most + 1));
+  if (!text) return pass_on(text);
+  if (text->empty()) return false;
+  const auto document = JsonDocument::parse(*text, (*connection)->peer(), {.bytes = kMostBytes});
+  if (!document) return pass_on(document);
+  const JsonField root = root_of(*document, (*connection)->peer());
+  const std::size_t count = root.size(kMostBytes);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!take(JsonAnswer(root.at(i)))) return true;
+    if (!root.good()) break;
+  }
+  if (!root.good()) return pass_on(root.status());
+  return false;
+}
+
+}  // namespace tidemark::imaging

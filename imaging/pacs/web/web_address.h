@@ -1,0 +1,20 @@
+// The address of a DICOMweb service: "https://pacs.example/dicom-web".
+#pragma once
+
+#include <string>
+
+namespace tidemark::imaging {
+
+// What is wrong with it; empty: nothing.
+[[nodiscard]] std::string fault_of_address(const std::string& url);
+
+// By TLS.
+[[nodiscard]] bool is_encrypted(const std::string& url);
+// What goes there leaves this machine in no way.
+[[nodiscard]] bool is_on_this_machine(const std::string& url);
+
+// As a value in the question of an address: what has a meaning there is escaped. The wildcards * and ? have
+// none there, and stay: some servers do not look for escaped ones.
+[[nodiscard]] std::string escaped(const std::string& text);
+
+}  // namespace tidemark::imaging
