@@ -76,6 +76,7 @@ void ConnectionWatch::start_anew() {
   moved_ = 0;
   came_ = 0;
   waited_ = 0s;
+  if (waiting_since_) waiting_since_ = Clock::now();  // a wait may span many messages
 }
 
 void ConnectionWatch::sent(std::int64_t bytes) {

@@ -141,6 +141,20 @@ class PacsWebHostileTest : public QObject {
     QVERIFY2(!message(found).contains('\n') && message(found).size() < 400, qPrintable(message(found)));
   }
 
+  void an_answer_that_goes_on_may_take_longer_than_the_patience() {
+    const ScriptedPeer peer([](PeerEnd& end) {
+      end.read_request();
+      end.write("HTTP/1.1 200 OK\r\n" + kJsonType + "\r\n[");
+      for (int i = 0; i < 12 && end.write(std::string(100'000, ' ')); ++i) QTest::qSleep(200);
+      end.write("]");
+    });
+    QElapsedTimer timer;
+    timer.start();
+    const auto found = imaging::find_studies(peer.web_server(), {});
+    QCOMPARE(failure(found), QString());
+    QVERIFY(timer.elapsed() > 2'000);  // the patience is one second
+  }
+
   void values_of_any_form_are_read() {
     const ScriptedPeer peer(says(answer("200 OK", kJsonType, R"([
       {"0020000D": {"vr": "UI", "Value": ["1.2.3"]},
