@@ -24,7 +24,8 @@ std::int64_t reason_in(const std::string& text, const std::string& peer) {
   const JsonField first = failed.at(std::size_t{0});
   if (!first.has(kFailureReason) || !first.at(kFailureReason).has("Value")) return kUnknownReason;
   const JsonField code = first.at(kFailureReason).at("Value").at(std::size_t{0});
-  return code.is_number() ? code.integer(0, 0xffff) : kUnknownReason;
+  const std::int64_t reason = code.is_number() ? code.integer(0, 0xffff) : 0;
+  return reason != 0 ? reason : kUnknownReason;
 }
 
 class WebSender final : public ObjectSender {

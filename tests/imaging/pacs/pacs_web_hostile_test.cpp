@@ -259,6 +259,12 @@ class PacsWebHostileTest : public QObject {
                                  << "";
     QTest::newRow("failed") << says(answer("202 Accepted", kJsonType, failed)) << "refuses it (reason 0122)"
                             << "";
+    for (const char* odd : {"0", "65536", "-1", "\"0122\"", "null"}) {
+      const std::string said =
+          fmt::format(R"({{"00081198": {{"Value": [{{"00081197": {{"Value": [{}]}}}}]}}}})", odd);
+      QTest::newRow(odd) << says(answer("200 OK", kJsonType, said)) << "refuses it (reason 0110)"
+                         << "";
+    }
     QTest::newRow("conflict") << says(answer("409 Conflict", kJsonType, failed)) << "refuses it (reason 0122)"
                               << "";
     QTest::newRow("conflict without words") << says(answer("409 Conflict", "", "")) << "(HTTP 409)"
