@@ -58,6 +58,10 @@ void Buffer::upload(std::int64_t offset, std::span<const std::byte> data) {
   glBufferSubData(GL_COPY_WRITE_BUFFER, offset, static_cast<GLsizeiptr>(data.size()), data.data());
 }
 
+void Buffer::copy_from(const Buffer& other, std::int64_t bytes) {
+  copy(other.id(), 0, id(), 0, bytes);
+}
+
 void Buffer::download(std::int64_t offset, std::span<std::byte> data) const {
   if (data.empty()) return;
   const auto bytes = static_cast<std::int64_t>(data.size());

@@ -23,6 +23,8 @@ class Buffer {
   [[nodiscard]] unsigned id() const { return handle_.id(); }
 
   void upload(std::int64_t offset, std::span<const std::byte> data);
+  // The first `bytes` of another, by the GPU.
+  void copy_from(const Buffer& other, std::int64_t bytes);
   // Waits for the GPU.
   void download(std::int64_t offset, std::span<std::byte> data) const;
 

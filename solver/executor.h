@@ -147,7 +147,7 @@ struct ExecutorOptions {
   // shape of a page where the executor leaves a choice.
   std::shared_ptr<gpu::Device> device = nullptr;
   bool debug = false;
-  bool time_paging = false;  // find out paging_seconds by waiting between dispatches, which costs some time
+  bool time_paging = false;  // find out paging_seconds by waiting between some dispatches, which costs time
   Index3 page_shape = kDefaultPageShape;
 };
 

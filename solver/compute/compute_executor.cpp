@@ -9,7 +9,6 @@
 #include "core/stopwatch.h"
 #include "solver/convergence.h"
 #include "solver/gl/packed_view.h"
-#include "solver/paging/reserve.h"
 #include "solver/paging/validate.h"
 
 namespace tidemark::solver {
@@ -17,6 +16,9 @@ namespace {
 
 // Runs of steps, and pieces of a step, take about this long.
 constexpr double kSecondsPerRun = 0.008;
+// With ExecutorOptions::time_paging one window of so many is timed: to wait after each dispatch would time
+// the waiting.
+constexpr std::int64_t kWindowsPerTiming = 8;
 
 // "F(0) F(1) ... ", for a macro that applies another one.
 std::string repeated(std::int64_t count) {
@@ -108,6 +110,9 @@ Status ComputeExecutor::compile_update() {
   defines.emplace_back("BLOCK", fmt::to_string(block));
   defines.emplace_back("FOR_BLOCK(F)", repeated(block));
   defines.emplace_back("FOR_ROWS(F)", repeated(block + 2));
+  const std::int64_t slices = layout_.layout().page_shape().z;
+  const bool halved = shared_apron() && slices % 2 == 0;
+  defines.emplace_back("DEPTH", fmt::to_string(halved ? slices / 2 : slices));
   if (shared_apron()) defines.emplace_back("SHARED_APRON", "");
   if (defines == update_defines_) return {};
   auto update = gpu::Program::compute(*device_, "solver/compute/update.comp", defines);
@@ -142,15 +147,20 @@ void ComputeExecutor::order_update(const gpu::Program& program, int now) {
   memory_.field().phi(1 - now).bind_image(0, true);
 }
 
-void ComputeExecutor::order_maintenance(bool count_step) {
+// Tells the maintenance what stays the same for a run of steps.
+void ComputeExecutor::prepare_maintenance(bool count_steps) {
   maintain_.use();
   set_layout(maintain_);
   maintain_.set("band", static_cast<float>(band()));
   maintain_.set("quiet_change", static_cast<float>(kQuietChange));
   maintain_.set("constant_steps_before_release", static_cast<unsigned>(kConstantStepsBeforeRelease));
-  maintain_.set("count_step", count_step ? 1 : 0);
-  memory_.field().phi(0).bind_image(0, true);
-  memory_.field().phi(1).bind_image(1, true);
+  maintain_.set("count_step", count_steps ? 1 : 0);
+  memory_.field().phi(0).bind_image(2, true);
+  memory_.field().phi(1).bind_image(3, true);
+}
+
+void ComputeExecutor::order_maintenance() {
+  maintain_.use();
   gpu::dispatch(memory_.control(), 0);
   gpu::finish_writes();
 }
@@ -179,17 +189,22 @@ void ComputeExecutor::order_step(int now, int step_in_window, bool in_pieces) {
   order_update(update_, now);
   // The change over two steps is known after the second of them.
   update_.set("measure_motion", step_in_window % 2);
+  const bool timed =
+      options_.time_paging && paging_clock_.steps++ / kConvergenceWindow % kWindowsPerTiming == 0;
+  if (timed) gpu::wait_for_gpu();
+  const Stopwatch step;
   dispatch_update(in_pieces);
-  if (!options_.time_paging) return order_paging(1 - now, step_in_window);
-  gpu::wait_for_gpu();
+  if (timed) gpu::wait_for_gpu();
   const Stopwatch paging;
   order_paging(1 - now, step_in_window);
+  if (!timed) return;
   gpu::wait_for_gpu();
-  paging_seconds_ += paging.seconds();
+  paging_clock_.seconds += step.seconds();
+  paging_clock_.paging_seconds += paging.seconds();
 }
 
 void ComputeExecutor::order_paging(int next, int step_in_window) {
-  order_maintenance(true);
+  order_maintenance();
   if (step_in_window + 1 == kConvergenceWindow) order_end_of_window(next);
 }
 
@@ -245,56 +260,63 @@ Result<ComputeControl> ComputeExecutor::run_steps(std::int64_t count, bool until
   control_.voxel_updates[0] = control_.voxel_updates[1] = 0;
   memory_.write_control(control_);
   memory_.bind();
+  prepare_maintenance(true);
   prepare_update(update_);
   for (std::int64_t i = 0; i < count; ++i) {
     order_step(static_cast<int>((current_ + i) % 2),
                static_cast<int>((steps_in_window_ + i) % kConvergenceWindow), count == 1);
   }
-  readback_.start(*device_, memory_.control(), 0);
-  ComputeControl control{};
-  TIDEMARK_TRY(readback_.finish(std::as_writable_bytes(std::span(&control, 1))));
+  TIDEMARK_TRY(read_control());
   TIDEMARK_TRY(device_->check("computing steps"));
-  current_ = static_cast<int>((current_ + control.steps_done) % 2);
-  steps_in_window_ = static_cast<int>((steps_in_window_ + control.steps_done) % kConvergenceWindow);
-  note_memory(control);
-  return control;
+  current_ = static_cast<int>((current_ + control_.steps_done) % 2);
+  steps_in_window_ = static_cast<int>((steps_in_window_ + control_.steps_done) % kConvergenceWindow);
+  return control_;
 }
 
-void ComputeExecutor::note_memory(const ComputeControl& control) {
-  control_ = control;
-  const std::int64_t resident = memory_.capacity() - kFirstPage - control.free_pages();
+// Waits for what was ordered, and makes control_ what it left.
+Status ComputeExecutor::read_control() {
+  readback_.start(*device_, memory_.control(), 0);
+  TIDEMARK_TRY(readback_.finish(std::as_writable_bytes(std::span(&control_, 1))));
+  note_memory();
+  return {};
+}
+
+void ComputeExecutor::note_memory() {
+  const std::int64_t resident = memory_.capacity() - kFirstPage - control_.free_pages();
   peak_resident_ = std::max(peak_resident_, resident);
   peak_bytes_ = std::max(peak_bytes_, with_textures(PageMemory::bytes_for(layout_, memory_.capacity())));
 }
 
-// Both copies exist while G grows.
 Status ComputeExecutor::grow(std::int64_t more_pages) {
-  const std::int64_t capacity = layout_.whole_rows(memory_.capacity() + more_pages);
-  const std::int64_t bytes =
-      PageMemory::bytes_for(layout_, capacity) + PageMemory::bytes_for(layout_, memory_.capacity());
-  TIDEMARK_TRY(check_budget(capacity, bytes, true));
-  TIDEMARK_TRY(memory_.grow(*device_, capacity));
-  note_memory(memory_.read_control());
+  const std::int64_t present = PageMemory::bytes_for(layout_, memory_.capacity());
+  auto capacity = capacity_for(memory_.capacity() + more_pages, true, [&](std::int64_t pages) {
+    return PageMemory::bytes_for(layout_, pages) + present;
+  });
+  if (!capacity) return pass_on(capacity);
+  TIDEMARK_TRY(memory_.grow(*device_, *capacity, control_));
+  note_memory();
   return {};
 }
 
 Status ComputeExecutor::activate_pages() {
   needs_activation_ = true;
+  TIDEMARK_TRY(read_control());
   for (;;) {
-    control_ = memory_.read_control();
     control_.starved = 0;
     control_.converged = 0;
     memory_.write_control(control_);
     memory_.bind();
+    prepare_maintenance(false);
     prepare_update(measure_);
     order_update(measure_, current_);
     gpu::dispatch(memory_.control(), 0);
     gpu::finish_writes();
-    order_maintenance(false);
-    note_memory(memory_.read_control());
+    order_maintenance();
+    TIDEMARK_TRY(read_control());
     TIDEMARK_TRY(device_->check("making pages resident"));
     if (control_.starved == 0) break;
-    TIDEMARK_TRY(grow(reserve_of(memory_.capacity(), 8)));
+    constexpr std::int64_t kFewPages = 8;  // how many are missing is not counted
+    TIDEMARK_TRY(grow(kFewPages));
   }
   needs_activation_ = false;
   return {};
@@ -314,10 +336,11 @@ Result<std::int64_t> ComputeExecutor::prepare_run(std::int64_t steps) {
 }
 
 Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
-  constexpr std::int64_t kMostStepsPerRun = 64;
+  constexpr std::int64_t kMostStepsPerRun = 128;
   const Stopwatch whole;
   AdvanceReport report;
   steps_of_last_run_ = 0;
+  paging_clock_ = {};
   TIDEMARK_TRY(device_->make_current());
   if (needs_activation_) {
     TIDEMARK_TRY(activate_pages());
@@ -355,7 +378,9 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
   }
   report.converged = rests_;
   report.seconds = whole.seconds();
-  report.paging_seconds = std::exchange(paging_seconds_, 0.0);
+  if (paging_clock_.seconds > 0.0) {
+    report.paging_seconds = report.seconds * paging_clock_.paging_seconds / paging_clock_.seconds;
+  }
   return report;
 }
 

@@ -48,7 +48,8 @@ class ComputeExecutor final : public GlExecutor {
   void set_layout(const gpu::Program& program) const;
   void prepare_update(const gpu::Program& program);
   void order_update(const gpu::Program& program, int now);
-  void order_maintenance(bool count_step);
+  void prepare_maintenance(bool count_steps);
+  void order_maintenance();
   void dispatch_update(bool in_pieces);
   void order_paging(int next, int step_in_window);
   void order_end_of_window(int now);
@@ -58,12 +59,14 @@ class ComputeExecutor final : public GlExecutor {
 
   // Grants every request of the present phi; G grows as needed.
   Status activate_pages();
+  // control_ is the present one.
   Status grow(std::int64_t more_pages);
   Status replace(const Field& phi) override;
   Status wake_all_pages() override;
   Result<std::int64_t> prepare_run(std::int64_t steps);
   void order_sphere(const Sphere& sphere, Brush brush, bool only_count);
-  void note_memory(const ComputeControl& control);
+  Status read_control();
+  void note_memory();
 
   gpu::Defines update_defines_, paint_defines_;
   gpu::Program update_, measure_, maintain_, find_quiet_pages_, check_convergence_, rebuild_, paint_;
@@ -75,8 +78,12 @@ class ComputeExecutor final : public GlExecutor {
   bool rests_ = false;             // as of the last full window
   std::int64_t steps_per_run_ = 1;
   double seconds_per_step_ = 0.0;  // as last measured
-  double paging_seconds_ = 0.0;    // since the last report
-  ComputeControl control_{};       // as last read
+  struct {                         // of an advance, with ExecutorOptions::time_paging
+    std::int64_t steps = 0;        // ordered
+    double seconds = 0.0;          // of those that were timed
+    double paging_seconds = 0.0;   // and for paging
+  } paging_clock_;
+  ComputeControl control_{};  // as last read
 };
 
 }  // namespace tidemark::solver

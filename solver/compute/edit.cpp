@@ -8,10 +8,10 @@
 namespace tidemark::solver {
 
 Status ComputeExecutor::replace(const Field& phi) {
-  constexpr std::int64_t kFewPages = 16;
-  const std::int64_t pages = phi.pages.stored() + kFewPages;
-  TIDEMARK_TRY(check_budget(pages, PageMemory::bytes_for(layout_, pages)));
-  auto memory = PageMemory::create(*device_, layout_, phi, pages);
+  auto capacity = capacity_for(phi.pages.stored() + kFirstPage, false,
+                               [&](std::int64_t pages) { return PageMemory::bytes_for(layout_, pages); });
+  if (!capacity) return pass_on(capacity);
+  auto memory = PageMemory::create(*device_, layout_, phi, *capacity);
   if (!memory) return pass_on(memory);
   memory_ = std::move(*memory);
   current_ = 0;
@@ -23,7 +23,7 @@ Status ComputeExecutor::replace(const Field& phi) {
 
 Status ComputeExecutor::wake_all_pages() {
   begin_window(true);
-  note_memory(memory_.read_control());
+  TIDEMARK_TRY(read_control());
   return device_->check("waking all pages");
 }
 
@@ -58,19 +58,18 @@ void ComputeExecutor::order_sphere(const Sphere& sphere, Brush brush, bool only_
 Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
   TIDEMARK_TRY(device_->make_current());
   // A sphere is drawn whole or not at all: its pages find room first.
-  ComputeControl control = memory_.read_control();
-  control.pages_wanted = 0;
-  memory_.write_control(control);
+  TIDEMARK_TRY(read_control());
+  control_.pages_wanted = 0;
+  memory_.write_control(control_);
   order_sphere(sphere, brush, true);
-  control = memory_.read_control();
+  TIDEMARK_TRY(read_control());
   TIDEMARK_TRY(device_->check("measuring a sphere"));
-  const std::int64_t missing = control.pages_wanted - control.free_pages();
+  const std::int64_t missing = control_.pages_wanted - control_.free_pages();
   if (missing > 0) {
     TIDEMARK_TRY(grow(missing));
   }
-  control = memory_.read_control();
-  control.free_tail_ready = control.free_tail;
-  memory_.write_control(control);
+  control_.free_tail_ready = control_.free_tail;
+  memory_.write_control(control_);
   order_sphere(sphere, brush, false);
   begin_window(false);
   return activate_pages();

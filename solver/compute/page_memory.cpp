@@ -55,61 +55,81 @@ Result<PageMemory> PageMemory::create(gpu::Device& device, const PackedLayout& l
   auto control = gpu::Buffer::create(device, sizeof(ComputeControl), "control");
   if (!control) return pass_on(control);
   memory.control_ = std::move(*control);
-  memory.write_control({});
-  TIDEMARK_TRY(memory.allocate_lists(device, pages, inverse, states, active));
+  TIDEMARK_TRY(memory.allocate_lists(device, pages));
+  memory.inverse_table_.upload_values<std::int32_t>(0, inverse);
+  memory.states_.upload_values<ComputePageState>(0, states);
+  memory.active_list_.upload_values<std::int32_t>(0, active);
+  ComputeControl first{};
+  constexpr std::uint32_t kGroupsPerRow = 32768;  // as in page_memory.glsl
+  const auto count = static_cast<std::uint32_t>(active.size());
+  first.active_count = count;
+  first.active_groups[0] = std::clamp<std::uint32_t>(count, 1, kGroupsPerRow);
+  first.active_groups[1] = std::max<std::uint32_t>(1, (count + kGroupsPerRow - 1) / kGroupsPerRow);
+  first.active_groups[2] = 1;
+  std::vector<std::int32_t> free;
+  for (auto page = static_cast<PhysicalPage>(active.size() + kFirstPage); page < pages; ++page) {
+    free.push_back(page);
+  }
+  memory.list_free_pages(free, first);
+  TIDEMARK_TRY(device.check("making the lists of pages"));
   return memory;
 }
 
-// New lists for `capacity` pages with the given contents; all pages that hold nothing are free.
-Status PageMemory::allocate_lists(gpu::Device& device, std::int64_t capacity,
-                                  const std::vector<std::int32_t>& inverse,
-                                  const std::vector<ComputePageState>& states,
-                                  const std::vector<std::int32_t>& active) {
-  std::vector<std::int32_t> free;
-  for (std::size_t page = kFirstPage; page < static_cast<std::size_t>(capacity); ++page) {
-    if (page >= inverse.size() || inverse[page] < 0) free.push_back(static_cast<std::int32_t>(page));
-  }
-  auto new_inverse = gpu::Buffer::create(device, capacity * 4, "inverse page table");
-  auto new_states = gpu::Buffer::create(
-      device, capacity * static_cast<std::int64_t>(sizeof(ComputePageState)), "page states");
-  auto new_active = gpu::Buffer::create(device, capacity * 4, "active list");
-  auto new_free = gpu::Buffer::create(device, ring_length(capacity) * 4, "free list");
-  for (auto* made : {&new_inverse, &new_states, &new_active, &new_free}) {
+// Empty lists for `capacity` pages.
+Status PageMemory::allocate_lists(gpu::Device& device, std::int64_t capacity) {
+  auto inverse = gpu::Buffer::create(device, capacity * 4, "inverse page table");
+  auto states = gpu::Buffer::create(device, capacity * static_cast<std::int64_t>(sizeof(ComputePageState)),
+                                    "page states");
+  auto active = gpu::Buffer::create(device, capacity * 4, "active list");
+  auto free = gpu::Buffer::create(device, ring_length(capacity) * 4, "free list");
+  for (auto* made : {&inverse, &states, &active, &free}) {
     if (!*made) return pass_on(*made);
   }
   const std::vector<std::int32_t> nobody(static_cast<std::size_t>(capacity), -1);
-  new_inverse->upload_values<std::int32_t>(0, nobody);
-  new_inverse->upload_values<std::int32_t>(0, inverse);
-  new_states->upload_values<ComputePageState>(0, states);
-  new_active->upload_values<std::int32_t>(0, active);
-  new_free->upload_values<std::int32_t>(0, free);
-  inverse_table_ = std::move(*new_inverse);
-  states_ = std::move(*new_states);
-  active_list_ = std::move(*new_active);
-  free_list_ = std::move(*new_free);
-
-  constexpr std::uint32_t kGroupsPerRow = 32768;  // as in page_memory.glsl
-  ComputeControl control = read_control();
-  const auto count = static_cast<std::uint32_t>(active.size());
-  control.active_count = count;
-  control.active_groups[0] = std::clamp<std::uint32_t>(count, 1, kGroupsPerRow);
-  control.active_groups[1] = std::max<std::uint32_t>(1, (count + kGroupsPerRow - 1) / kGroupsPerRow);
-  control.active_groups[2] = 1;
-  control.free_head = 0;
-  control.free_tail = control.free_tail_ready = static_cast<std::uint32_t>(free.size());
-  write_control(control);
-  return device.check("making the lists of pages");
+  inverse->upload_values<std::int32_t>(0, nobody);
+  inverse_table_ = std::move(*inverse);
+  states_ = std::move(*states);
+  active_list_ = std::move(*active);
+  free_list_ = std::move(*free);
+  return {};
 }
 
-Status PageMemory::grow(gpu::Device& device, std::int64_t capacity) {
+// The free pages are these, and `control` with them is the present one.
+void PageMemory::list_free_pages(const std::vector<std::int32_t>& pages, ComputeControl& control) {
+  free_list_.upload_values<std::int32_t>(0, pages);
+  control.free_head = 0;
+  control.free_tail = control.free_tail_ready = static_cast<std::uint32_t>(pages.size());
+  write_control(control);
+}
+
+Status PageMemory::grow(gpu::Device& device, std::int64_t capacity, ComputeControl& control) {
   const std::int64_t old = this->capacity();
   const std::int64_t pages = field_.layout().whole_rows(capacity);
-  const auto inverse = inverse_table_.download_values<std::int32_t>(0, old);
-  const auto states = states_.download_values<ComputePageState>(0, old);
-  const auto active = active_list_.download_values<std::int32_t>(0, read_control().active_count);
+  std::vector<std::int32_t> free = free_pages(control);
+  for (auto page = static_cast<PhysicalPage>(old); page < pages; ++page) free.push_back(page);
   TIDEMARK_TRY(device.check("growing the lists of pages"));
+  PageMemory grown;
+  TIDEMARK_TRY(grown.allocate_lists(device, pages));
   TIDEMARK_TRY(field_.grow(device, pages));
-  return allocate_lists(device, pages, inverse, states, active);
+  grown.inverse_table_.copy_from(inverse_table_, inverse_table_.bytes());
+  grown.states_.copy_from(states_, states_.bytes());
+  grown.active_list_.copy_from(active_list_, active_list_.bytes());
+  inverse_table_ = std::move(grown.inverse_table_);
+  states_ = std::move(grown.states_);
+  active_list_ = std::move(grown.active_list_);
+  free_list_ = std::move(grown.free_list_);
+  list_free_pages(free, control);
+  return device.check("growing the lists of pages");
+}
+
+// Those that the ring holds.
+std::vector<std::int32_t> PageMemory::free_pages(const ComputeControl& control) const {
+  std::vector<std::int32_t> pages;
+  if (control.free_pages() <= 0) return pages;
+  const auto ring = free_list_.download_values<std::int32_t>(0, ring_length(capacity()));
+  for (std::uint32_t i = control.free_head; i != control.free_tail; ++i)
+    pages.push_back(ring[i % ring.size()]);
+  return pages;
 }
 
 ComputeControl PageMemory::read_control() const {

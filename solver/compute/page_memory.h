@@ -63,8 +63,9 @@ class PageMemory {
   static Result<PageMemory> create(gpu::Device& device, const PackedLayout& layout, const Field& phi,
                                    std::int64_t capacity);
 
-  // Room for more pages, by copy. On failure it is as before.
-  Status grow(gpu::Device& device, std::int64_t capacity);
+  // Room for more pages, by copy; `control` is the present one, before and after. On failure all is as
+  // before.
+  Status grow(gpu::Device& device, std::int64_t capacity, ComputeControl& control);
 
   // Makes `phi` what the given buffer holds. Waits for the GPU.
   Status download(int buffer, Field& phi) const;
@@ -92,8 +93,9 @@ class PageMemory {
  private:
   template <class Wanted>
   [[nodiscard]] std::vector<std::int64_t> pages_where(Wanted wanted) const;
-  Status allocate_lists(gpu::Device& device, std::int64_t capacity, const std::vector<std::int32_t>& inverse,
-                        const std::vector<ComputePageState>& states, const std::vector<std::int32_t>& active);
+  Status allocate_lists(gpu::Device& device, std::int64_t capacity);
+  void list_free_pages(const std::vector<std::int32_t>& pages, ComputeControl& control);
+  [[nodiscard]] std::vector<std::int32_t> free_pages(const ComputeControl& control) const;
 
   PackedField field_;
   gpu::Buffer page_table_;

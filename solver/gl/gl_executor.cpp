@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace tidemark::solver {
+namespace {
+
+constexpr std::int64_t kFewestSpare = 64;  // pages
+
+}  // namespace
 
 GlExecutor::GlExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
                        const Parameters& parameters, const ExecutorOptions& options, Index3 page_shape)
@@ -21,11 +26,19 @@ Status GlExecutor::make_textures() {
   return {};
 }
 
-Status GlExecutor::check_budget(std::int64_t pages, std::int64_t state_bytes, bool copied) const {
-  const std::int64_t bytes = with_textures(state_bytes);
-  if (bytes <= options_.memory_budget_bytes) return {};
+Result<std::int64_t> GlExecutor::capacity_for(
+    std::int64_t needed, bool copied, const std::function<std::int64_t(std::int64_t)>& state_bytes) const {
+  const auto bytes = [&](std::int64_t pages) { return with_textures(state_bytes(pages)); };
+  const std::int64_t least = layout_.whole_rows(needed);
+  const std::int64_t all = layout_.layout().page_count() + kFirstPage;  // of the whole volume
+  const std::int64_t ample = layout_.whole_rows(std::min(needed + std::max(needed / 5, kFewestSpare), all));
+  if (ample > least && ample <= layout_.largest_capacity() && bytes(ample) <= options_.memory_budget_bytes) {
+    return ample;
+  }
+  if (bytes(least) <= options_.memory_budget_bytes) return least;
   return fail(ErrorKind::capability, "the surface needs {} pages, {} MB{}, and the memory budget is {} MB",
-              pages, bytes >> 20, copied ? " while they are copied" : "", options_.memory_budget_bytes >> 20);
+              least, bytes(least) >> 20, copied ? " while they are copied" : "",
+              options_.memory_budget_bytes >> 20);
 }
 
 Status GlExecutor::check_textures(const SpeedFunction& speed, const Constraints* constraints) const {

@@ -2,6 +2,7 @@
 // They differ in the programs that are compiled for it, and in how pages are woken.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "gpu/device.h"
@@ -38,9 +39,12 @@ class GlExecutor : public ExecutorBase {
   [[nodiscard]] std::int64_t with_textures(std::int64_t state_bytes) const {
     return state_bytes + drive_textures_.bytes();
   }
-  // Fails (ErrorKind::capability) when so many bytes of state with so many pages are more than the memory
-  // budget allows beside the textures. `copied`: the former state is among them.
-  [[nodiscard]] Status check_budget(std::int64_t pages, std::int64_t state_bytes, bool copied = false) const;
+  // For how many physical pages there is to be room where `needed` are: a fifth more, so that a growing
+  // surface seldom waits for room and little lies idle, or `needed` alone where no more fits. `state_bytes`
+  // says what so many pages take, with `copied` the former state included. Fails (ErrorKind::capability) when
+  // `needed` take more than the memory budget allows beside the textures.
+  [[nodiscard]] Result<std::int64_t> capacity_for(
+      std::int64_t needed, bool copied, const std::function<std::int64_t(std::int64_t)>& state_bytes) const;
 
   // How many pages away along each axis the surface can be whose distance a page's voxels hold; no further
   // than the volume goes, however far the band does.

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "solver/paging/page_neighbours.h"
-#include "solver/paging/reserve.h"
 #include "solver/paging/validate.h"
 #include "solver/stream/stream_executor.h"
 
@@ -15,19 +14,14 @@ std::int64_t StreamExecutor::state_bytes(std::int64_t capacity) const {
          capacity * beside;
 }
 
-// Both copies exist while G grows.
 Status StreamExecutor::make_room(std::int64_t more_pages) {
   const std::int64_t needed = table_.capacity() + std::max<std::int64_t>(0, more_pages - table_.free_count());
   if (needed <= memory_.capacity()) return {};
-  const auto bytes = [&](std::int64_t capacity) {
-    return state_bytes(capacity) + state_bytes(memory_.capacity());
-  };
-  std::int64_t capacity = layout_.whole_rows(needed + reserve_of(needed, 16));
-  if (!check_budget(capacity, bytes(capacity)) || capacity > layout_.largest_capacity()) {
-    capacity = layout_.whole_rows(needed);
-  }
-  TIDEMARK_TRY(check_budget(capacity, bytes(capacity), true));
-  TIDEMARK_TRY(memory_.grow(*device_, capacity));
+  const std::int64_t present = state_bytes(memory_.capacity());
+  auto capacity =
+      capacity_for(needed, true, [&](std::int64_t pages) { return state_bytes(pages) + present; });
+  if (!capacity) return pass_on(capacity);
+  TIDEMARK_TRY(memory_.grow(*device_, *capacity));
   peak_bytes_ = std::max(peak_bytes_, with_textures(state_bytes(memory_.capacity())));
   return {};
 }

@@ -63,10 +63,10 @@ bool all_equal(const std::vector<float>& values, float value) {
 }  // namespace
 
 Status StreamExecutor::replace(const Field& phi) {
-  constexpr std::int64_t kFewPages = 16;
-  const std::int64_t pages = phi.pages.stored() + kFirstPage + kFewPages;
-  TIDEMARK_TRY(check_budget(pages, state_bytes(pages)));
-  auto memory = PhysicalMemory::create(*device_, layout_, pages, static_cast<float>(band()));
+  auto capacity = capacity_for(phi.pages.stored() + kFirstPage, false,
+                               [&](std::int64_t pages) { return state_bytes(pages); });
+  if (!capacity) return pass_on(capacity);
+  auto memory = PhysicalMemory::create(*device_, layout_, *capacity, static_cast<float>(band()));
   if (!memory) return pass_on(memory);
   memory->field().upload(phi.pages);
   memory_ = std::move(*memory);

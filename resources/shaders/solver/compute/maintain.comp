@@ -7,8 +7,9 @@
 layout(local_size_x = MAINTAINERS) in;
 const int kInvocations = MAINTAINERS;  // 8 at least
 
-layout(binding = 0, r32f) uniform restrict writeonly image2D phi_a;
-layout(binding = 1, r32f) uniform restrict writeonly image2D phi_b;
+// Units beside those of the other kernels, which bind theirs anew.
+layout(binding = 2, r32f) uniform restrict writeonly image2D phi_a;
+layout(binding = 3, r32f) uniform restrict writeonly image2D phi_b;
 uniform float band;
 uniform float quiet_change;
 uniform bool count_step;  // false when codes were only measured

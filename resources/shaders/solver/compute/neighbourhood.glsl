@@ -2,15 +2,15 @@
 
 // phi in and around a page, which a work group computes: the address modes of the update.
 //
-// An invocation computes a block of BLOCK columns along z that lie side by side along y. With SHARED_APRON the page and
-// the voxels around it are brought to shared memory first, and a block is one column: a GPU's way. Otherwise each
-// invocation fetches what its block needs, and a larger block needs fewer fetches a voxel: the way of a processor
-// that plays the GPU.
+// An invocation computes DEPTH slices of a block of BLOCK columns along z that lie side by side along y. With SHARED_APRON
+// the page and the voxels around it are brought to shared memory first, and a block is one column, in short pieces: a
+// GPU's way. Otherwise each invocation fetches what its whole block needs, and a larger block needs fewer fetches a
+// voxel: the way of a processor that plays the GPU.
 //
 // FOR_ROWS(F) is F(0) F(1) ... for the columns of a block and one more on each side: written out, because software
 // drivers do not unroll such loops and then index registers through memory.
 
-const int kInvocations = PAGE_X * (PAGE_Y / BLOCK);
+const int kInvocations = PAGE_X * (PAGE_Y / BLOCK) * (PAGE_Z / DEPTH);
 
 uniform sampler2D phi_now;
 
@@ -24,6 +24,7 @@ ivec3 highest = ivec3(0);
 ivec3 last = ivec3(0);     // the last voxel of the page that is inside the volume
 
 ivec2 block_start = ivec2(0);  // the block's first column in the page
+int first_slice = 0;           // that the invocation computes
 
 void find_neighbours(int page) {
   ivec3 coordinates = page_coordinates(inverse_table[page]);
@@ -51,12 +52,22 @@ const ivec3 kApron = kPageShape + 2;
 shared float apron[kApron.x * kApron.y * kApron.z];
 
 void gather_apron() {
-  for (int i = int(gl_LocalInvocationIndex); i < kApron.x * kApron.y * kApron.z; i += kInvocations) {
-    ivec3 local = ivec3(i % kApron.x, i / kApron.x % kApron.y, i / (kApron.x * kApron.y)) - 1;
-    ivec3 voxel = clamp(local, lowest, highest);  // Neumann at the volume's border
-    ivec3 step = page_step(voxel);
-    ivec2 page = page_origin(neighbours[13 + step.x + 3 * step.y + 9 * step.z]);
-    apron[i] = texelFetch(phi_now, page + texel_in_page(voxel - step * kPageShape), 0).r;
+  const int kColumns = kApron.x * kApron.y;
+  for (int i = int(gl_LocalInvocationIndex); i < kColumns; i += kInvocations) {
+    // Neumann at the volume's border.
+    ivec2 place = clamp(ivec2(i % kApron.x, i / kApron.x) - 1, lowest.xy, highest.xy);
+    ivec2 step = page_step(ivec3(place, 0)).xy;
+    int column = 13 + step.x + 3 * step.y;
+    ivec2 before = page_origin(neighbours[column - 9]);
+    ivec2 here = page_origin(neighbours[column]);
+    ivec2 behind = page_origin(neighbours[column + 9]);
+    place -= step * kPageShape.xy;
+    for (int z = -1; z <= PAGE_Z; ++z) {
+      int inside = clamp(z, lowest.z, highest.z);
+      ivec2 page = inside < 0 ? before : inside >= PAGE_Z ? behind : here;
+      int slice = inside < 0 ? PAGE_Z - 1 : inside >= PAGE_Z ? 0 : inside;
+      apron[i + kColumns * (z + 1)] = texelFetch(phi_now, page + texel_in_page(ivec3(place, slice)), 0).r;
+    }
   }
 }
 void load_slice(int z, out float slice[SLICE_VALUES]) {

@@ -4,10 +4,11 @@
 
 // One step of phi in the active pages, a work group each. Each page's code says afterwards what it needs. With
 // MEASURE_ONLY nothing is computed but the code of phi as it is.
-// An invocation computes the columns of a block (neighbourhood.glsl). FOR_BLOCK(F) is F(0) F(1) ... for these columns.
+// An invocation computes DEPTH voxels of each column of a block (neighbourhood.glsl). FOR_BLOCK(F) is F(0) F(1) ... for
+// these columns.
 // Padding beyond the volume is computed along with the rest, but never counted.
 
-layout(local_size_x = PAGE_X, local_size_y = PAGE_Y / BLOCK) in;
+layout(local_size_x = PAGE_X, local_size_y = PAGE_Y / BLOCK, local_size_z = PAGE_Z / DEPTH) in;
 
 layout(binding = 0, r32f) uniform restrict image2D phi_next;  // holds phi of one step earlier
 
@@ -16,7 +17,7 @@ uniform float near;  // |phi| of a voxel beside the surface is at most this
 
 shared uint group_code;
 shared uint group_largest_change;
-shared float contents[PAGE_X * (PAGE_Y / BLOCK)];  // of each invocation
+shared float contents[kInvocations];  // of each invocation
 shared uint group_near_voxels;
 
 // Of the invocation.
@@ -63,9 +64,9 @@ void compute_voxel(int i, int z, float below[SLICE_VALUES], float here[SLICE_VAL
 
 void compute_block() {
   float below[SLICE_VALUES], here[SLICE_VALUES], above[SLICE_VALUES];
-  load_slice(-1, below);
-  load_slice(0, here);
-  for (int z = 0; z < PAGE_Z; ++z) {
+  load_slice(first_slice - 1, below);
+  load_slice(first_slice, here);
+  for (int z = first_slice; z < first_slice + DEPTH; ++z) {
     load_slice(z + 1, above);
 #define COMPUTE_VOXEL(i) compute_voxel(i, z, below, here, above);
     FOR_BLOCK(COMPUTE_VOXEL)
@@ -74,8 +75,18 @@ void compute_block() {
   }
 }
 
+// Adds all contents up in the first, in the same order every time.
+void sum_contents() {
+  int index = int(gl_LocalInvocationIndex);
+  for (int count = kInvocations; count > 1; count = (count + 1) / 2) {
+    barrier();
+    int upper = index + (count + 1) / 2;
+    if (upper < count) contents[index] += contents[upper];
+  }
+}
+
 void measure_block() {
-  for (int z = 0; z < PAGE_Z; ++z) {
+  for (int z = first_slice; z < first_slice + DEPTH; ++z) {
     for (int i = 0; i < BLOCK; ++i) {
       ivec3 local = ivec3(block_start + ivec2(0, i), z);
       float phi = texelFetch(phi_now, origin + texel_in_page(local), 0).r;
@@ -95,6 +106,7 @@ void main() {
   if (inverse_table[page] < 0) return;
 
   block_start = ivec2(gl_LocalInvocationID.xy) * ivec2(1, BLOCK);
+  first_slice = int(gl_LocalInvocationID.z) * DEPTH;
   find_neighbours(page);
   if (gl_LocalInvocationIndex == 0u) {
     group_code = 0u;
@@ -111,11 +123,15 @@ void main() {
 #endif
   compute_block();
 #endif
-  atomicOr(group_code, code);
+  // Atomic operations on one word follow each other: those that change nothing are left out.
+  if ((code & ~group_code) != 0u) atomicOr(group_code, code);
   if (measure_motion) {
-    atomicMax(group_largest_change, floatBitsToUint(largest_change));
+    if (floatBitsToUint(largest_change) > group_largest_change) {
+      atomicMax(group_largest_change, floatBitsToUint(largest_change));
+    }
+    if (near_voxels != 0u) atomicAdd(group_near_voxels, near_voxels);
     contents[gl_LocalInvocationIndex] = content;
-    atomicAdd(group_near_voxels, near_voxels);
+    sum_contents();
   }
   barrier();
   if (gl_LocalInvocationIndex != 0u) return;
@@ -130,9 +146,7 @@ void main() {
 #ifndef MEASURE_ONLY
   if (measure_motion) {
     page_state[page].change += uintBitsToFloat(group_largest_change);
-    float sum = 0.0;  // in the same order every time
-    for (int i = 0; i < contents.length(); ++i) sum += contents[i];
-    page_state[page].content += sum;
+    page_state[page].content += contents[0];
     page_state[page].near_voxels += group_near_voxels;
     ++page_state[page].samples;
   }
