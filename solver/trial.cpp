@@ -105,6 +105,7 @@ Status try_compute(const std::shared_ptr<gpu::Device>& device) {
   auto trusted = HostExecutor::create(source, trial_parameters(), options);
   if (!trusted) return pass_on(trusted);
   if (const Status same = compare_in_trial(**tried, **trusted); !same) {
+    if (device->lost()) return same;  // which says nothing of how it computes
     return fail(ErrorKind::capability, "the graphics driver ({}) computes a trial wrongly: {}", name,
                 same.error().message);
   }
