@@ -3,10 +3,10 @@
 
 #include "core/json/json_field.h"
 #include "core/stopwatch.h"
-#include "imaging/pacs/answer_text.h"
-#include "imaging/pacs/web/http_connection.h"
-#include "imaging/pacs/web/web_address.h"
 #include "imaging/pacs/web/web_services.h"
+#include "imaging/web/clean_text.h"
+#include "imaging/web/http_connection.h"
+#include "imaging/web/web_address.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -85,7 +85,7 @@ std::string question(const std::string& resource, const QueryKeys& keys, std::in
 
 Result<double> echo_by_web(const PacsServer& server, const Progress& progress) {
   progress(0.0, "calling the server");
-  const auto connection = HttpConnection::open(server, progress.stop);
+  const auto connection = open_web(server, progress.stop);
   if (!connection) return pass_on(connection);
   const Stopwatch stopwatch;
   // DICOMweb has no service for it.
@@ -97,7 +97,7 @@ Result<double> echo_by_web(const PacsServer& server, const Progress& progress) {
 Result<bool> ask_by_web(const PacsServer& server, const std::string& resource, const QueryKeys& keys,
                         std::int64_t most, const TakeAnswer& take, const Progress& progress) {
   progress(-1.0, "asking the server");
-  const auto connection = HttpConnection::open(server, progress.stop);
+  const auto connection = open_web(server, progress.stop);
   if (!connection) return pass_on(connection);
   const auto text = text_from(**connection, question(resource, keys, most + 1));
   if (!text) return pass_on(text);

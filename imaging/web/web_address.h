@@ -1,4 +1,4 @@
-// The address of a DICOMweb service: "https://pacs.example/dicom-web".
+// The address of a service on the web: "https://pacs.example/dicom-web".
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "imaging/pacs/web/web_address.h"
+#include "imaging/web/web_address.h"
 
 #include <curl/curl.h>
 #include <fmt/format.h>
