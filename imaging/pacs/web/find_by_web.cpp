@@ -5,7 +5,7 @@
 #include "core/stopwatch.h"
 #include "imaging/pacs/web/web_services.h"
 #include "imaging/web/clean_text.h"
-#include "imaging/web/http_connection.h"
+#include "imaging/web/json_answer.h"
 #include "imaging/web/web_address.h"
 
 namespace tidemark::imaging {
@@ -54,23 +54,9 @@ class JsonAnswer final : public FoundAnswer {
   JsonField dataset_;
 };
 
-// The whole answer; empty where the server has nothing (HTTP 204).
 Result<std::string> text_from(HttpConnection& connection, const std::string& resource) {
-  std::string text;
-  const auto answer = connection.ask({resource, kDicomJson, static_cast<std::int64_t>(kMostBytes)},
-                                     [&](const HttpAnswer&, std::string_view bytes) -> Status {
-                                       text += bytes;
-                                       return {};
-                                     });
-  if (!answer) return pass_on(answer);
-  if (!answer->is_good()) return tl::unexpected<Error>(connection.error(*answer));
-  constexpr int kNoContent = 204;
-  if (answer->status == kNoContent) return std::string();
-  if (answer->content_type.find("json") == std::string::npos) {
-    return fail(ErrorKind::input, "{}: answers with '{}', which is not the JSON of DICOM", connection.peer(),
-                clean_text(answer->content_type.substr(0, 100)));
-  }
-  return text;
+  return ask_for_json(connection, {resource, kDicomJson, static_cast<std::int64_t>(kMostBytes)},
+                      "the JSON of DICOM");
 }
 
 std::string question(const std::string& resource, const QueryKeys& keys, std::int64_t limit) {
