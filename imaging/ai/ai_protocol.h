@@ -1,4 +1,4 @@
-// What a protocol of a server with models does, each by its own requests.
+// The common face of the protocols of servers with models, each with requests of its own.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace tidemark::imaging {
 
 inline constexpr std::size_t kMostModels = 1'000;
 inline constexpr std::size_t kMostLabels = 1'000;
-inline constexpr std::size_t kLongestAiName = 255;  // bytes
+inline constexpr std::size_t kLongestAiName = 255;                   // bytes
 inline constexpr std::int64_t kLongestList = std::int64_t{4} << 20;  // bytes of an answer that is no image
 
 class AiProtocol {

@@ -22,7 +22,7 @@ class FormData {
                 ByteSource& bytes);
   // After the last part: what HttpRequest takes.
   [[nodiscard]] std::vector<ByteSource*> body();
-  [[nodiscard]] std::string type() const { return "multipart/form-data; boundary=" + boundary_; }
+  [[nodiscard]] std::string type() const { return "multipart/form-data;boundary=" + boundary_; }
 
  private:
   void put(std::string text);

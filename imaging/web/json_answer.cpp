@@ -9,8 +9,7 @@ constexpr std::size_t kLongestType = 100;
 
 }  // namespace
 
-Result<std::string> ask_for_json(HttpConnection& connection, const HttpRequest& request,
-                                 const std::string& what) {
+Result<std::string> ask_for_json(HttpConnection& connection, const HttpRequest& request) {
   std::string text;
   const auto answer = connection.ask(request, [&](const HttpAnswer&, std::string_view bytes) -> Status {
     text += bytes;
@@ -21,8 +20,8 @@ Result<std::string> ask_for_json(HttpConnection& connection, const HttpRequest& 
   constexpr int kNoContent = 204;
   if (answer->status == kNoContent) return std::string();
   if (answer->content_type.find("json") == std::string::npos) {
-    return fail(ErrorKind::input, "{}: answers with '{}', which is not {}", connection.peer(),
-                clean_text(answer->content_type.substr(0, kLongestType)), what);
+    return fail(ErrorKind::input, "{}: answers with '{}', which is not JSON", connection.peer(),
+                clean_text(answer->content_type.substr(0, kLongestType)));
   }
   return text;
 }

@@ -7,10 +7,8 @@
 
 namespace tidemark::imaging {
 
-// The whole body of a good answer; empty where the server has nothing (HTTP 204). `what` ends the sentence
-// about another type: "... which is not JSON". Fails (ErrorKind::input) as HttpConnection::ask() does, and on
-// an answer that is not good.
-Result<std::string> ask_for_json(HttpConnection& connection, const HttpRequest& request,
-                                 const std::string& what = "JSON");
+// The whole body of a good answer; empty where the server has nothing (HTTP 204). Fails (ErrorKind::input) as
+// HttpConnection::ask() does, on an answer that is not good, and on one of another type.
+Result<std::string> ask_for_json(HttpConnection& connection, const HttpRequest& request);
 
 }  // namespace tidemark::imaging

@@ -55,8 +55,7 @@ class JsonAnswer final : public FoundAnswer {
 };
 
 Result<std::string> text_from(HttpConnection& connection, const std::string& resource) {
-  return ask_for_json(connection, {resource, kDicomJson, static_cast<std::int64_t>(kMostBytes)},
-                      "the JSON of DICOM");
+  return ask_for_json(connection, {resource, kDicomJson, static_cast<std::int64_t>(kMostBytes)});
 }
 
 std::string question(const std::string& resource, const QueryKeys& keys, std::int64_t limit) {
