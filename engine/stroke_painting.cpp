@@ -21,6 +21,26 @@ void visit_neighbours(const Geometry& geometry, const std::vector<std::int64_t>&
   }
 }
 
+// Calls `visit` with the places in `voxels` of each connected stroke.
+template <class Visit>
+void visit_strokes(const Geometry& geometry, const std::vector<std::int64_t>& voxels, Visit&& visit) {
+  std::vector<bool> seen(voxels.size());
+  std::vector<std::size_t> stroke;
+  for (std::size_t first = 0; first < voxels.size(); ++first) {
+    if (seen[first]) continue;
+    seen[first] = true;
+    stroke = {first};
+    for (std::size_t now = 0; now < stroke.size(); ++now) {
+      visit_neighbours(geometry, voxels, voxels[stroke[now]], [&](std::size_t next) {
+        if (seen[next]) return;
+        seen[next] = true;
+        stroke.push_back(next);
+      });
+    }
+    visit(stroke);
+  }
+}
+
 std::vector<std::int64_t> without(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b) {
   std::vector<std::int64_t> rest;
   std::ranges::set_difference(a, b, std::back_inserter(rest));
@@ -52,24 +72,21 @@ bool can_teach(const solver::Strokes* strokes) {
 
 std::int64_t count_strokes(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {
   std::int64_t strokes = 0;
-  std::vector<bool> seen(voxels.size());
-  std::vector<std::size_t> waiting;
-  for (std::size_t first = 0; first < voxels.size(); ++first) {
-    if (seen[first]) continue;
-    ++strokes;
-    seen[first] = true;
-    waiting.push_back(first);
-    while (!waiting.empty()) {
-      const std::size_t now = waiting.back();
-      waiting.pop_back();
-      visit_neighbours(geometry, voxels, voxels[now], [&](std::size_t next) {
-        if (seen[next]) return;
-        seen[next] = true;
-        waiting.push_back(next);
-      });
-    }
-  }
+  visit_strokes(geometry, voxels, [&](const std::vector<std::size_t>&) { ++strokes; });
   return strokes;
+}
+
+std::vector<Index3> middles_of_strokes(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {
+  std::vector<Index3> middles;
+  visit_strokes(geometry, voxels, [&](const std::vector<std::size_t>& stroke) {
+    const auto voxel = [&](std::size_t place) { return geometry.voxel_at(voxels[place]); };
+    glm::dvec3 mean(0.0);
+    for (const std::size_t place : stroke) mean += glm::dvec3(voxel(place));
+    mean /= static_cast<double>(stroke.size());
+    middles.push_back(voxel(*std::ranges::min_element(
+        stroke, {}, [&](std::size_t place) { return glm::distance(glm::dvec3(voxel(place)), mean); })));
+  });
+  return middles;
 }
 
 std::vector<solver::Sphere> spheres_along(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {

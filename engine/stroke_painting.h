@@ -24,6 +24,10 @@ std::shared_ptr<const solver::Strokes> painted(const solver::Strokes* strokes,
 // How many connected strokes the voxels, ascending, make.
 [[nodiscard]] std::int64_t count_strokes(const Geometry& geometry, const std::vector<std::int64_t>& voxels);
 
+// The voxel of each of these strokes that is nearest to its middle: what a click there would be.
+[[nodiscard]] std::vector<Index3> middles_of_strokes(const Geometry& geometry,
+                                                     const std::vector<std::int64_t>& voxels);
+
 // Spheres of two voxels' radius along the voxels, ascending, from which a surface can begin.
 std::vector<solver::Sphere> spheres_along(const Geometry& geometry, const std::vector<std::int64_t>& voxels);
 

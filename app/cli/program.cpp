@@ -74,6 +74,7 @@ void add_all(CLI::App& app, Program& program) {
   add_cohort(app, program);
   add_bench(app, program);
   add_pacs(app, program);
+  add_ai(app, program);
 }
 
 // A first word that is no command gets a better answer than the parser's.

@@ -48,5 +48,6 @@ void add_lesson(CLI::App& app, Program& program);
 void add_cohort(CLI::App& app, Program& program);
 void add_bench(CLI::App& app, Program& program);
 void add_pacs(CLI::App& app, Program& program);
+void add_ai(CLI::App& app, Program& program);
 
 }  // namespace tidemark::cli

@@ -10,6 +10,7 @@ namespace {
 using Kind = JsonDocument::Kind;
 
 constexpr std::size_t kLongestShown = 60;  // in messages
+constexpr std::size_t kLongestName = 255;  // of a member whose name is asked for
 
 // Beyond the range of double it is infinite, or 0 when it is too small for that.
 double to_double(std::string_view word) {
@@ -91,6 +92,22 @@ void JsonField::only(const std::vector<std::string_view>& names) const {
     if (std::any_of(names.begin(), names.end(), is_this)) continue;
     return wrong(fmt::format("'{}' is no field that is known here", document_->text(name, kLongestShown)));
   }
+}
+
+std::vector<std::string> JsonField::names(std::size_t most) const {
+  std::vector<std::string> all;
+  if (!must(Kind::object, "not an object")) return all;
+  for (Number name = *value_ + 1; name < document_->end(*value_); name = document_->end(name + 1)) {
+    all.push_back(document_->text(name, kLongestName));
+    if (all.back().size() > kLongestName) {
+      wrong(fmt::format("a name has more than {} bytes", kLongestName));
+      return {};
+    }
+    if (all.size() <= most) continue;
+    wrong(fmt::format("more than {} entries are not read", most));
+    return {};
+  }
+  return all;
 }
 
 std::size_t JsonField::size(std::size_t most) const {

@@ -34,8 +34,11 @@ class JsonField {
   [[nodiscard]] JsonField at(std::size_t index) const;
   [[nodiscard]] bool is_text() const { return is(JsonDocument::Kind::text); }
   [[nodiscard]] bool is_number() const { return is(JsonDocument::Kind::number); }
+  [[nodiscard]] bool is_list() const { return is(JsonDocument::Kind::list); }
   // Notes a problem where an object holds any other name: a misspelt field must not go unnoticed.
   void only(const std::vector<std::string_view>& names) const;
+  // Of the members of an object of at most so many, each at most 255 bytes long.
+  [[nodiscard]] std::vector<std::string> names(std::size_t most) const;
   // Of an array of at most so many.
   [[nodiscard]] std::size_t size(std::size_t most) const;
 

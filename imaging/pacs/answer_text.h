@@ -9,10 +9,6 @@
 
 namespace tidemark::imaging {
 
-// On one line, without blanks around it, at most 512 bytes of whole UTF-8 characters; what is not UTF-8
-// becomes question marks.
-[[nodiscard]] std::string clean_text(std::string text);
-
 // The parts between the separators, empty ones, too.
 [[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
 

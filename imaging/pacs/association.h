@@ -10,7 +10,7 @@
 
 #include "core/result.h"
 #include "imaging/pacs/configuration.h"
-#include "imaging/pacs/connection_watch.h"
+#include "imaging/web/connection_watch.h"
 
 class DcmDataset;
 class DcmTransportLayer;

@@ -1,26 +1,20 @@
 #include "imaging/pacs/configuration.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "core/atomic_file.h"
 #include "core/json/json.h"
 #include "core/json/json_field.h"
 #include "core/json/json_text.h"
-#include "core/site_folder.h"
-#include "imaging/pacs/web/web_address.h"
+#include "imaging/web/server_file.h"
 
 namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr JsonLimits kLimits{.bytes = std::size_t{1} << 20, .depth = 8};
-constexpr std::size_t kMostServers = 100;
-constexpr std::size_t kLongestAddress = 2048;
+constexpr const char* kFile = "pacs.json";
 constexpr std::int64_t kMebibyte = std::int64_t{1} << 20;
 
 // A title of an application entity (DICOM PS3.5 6.2, AE).
@@ -37,24 +31,7 @@ bool is_host(const std::string& host) {
   return !host.empty() && host.size() <= 253 && std::all_of(host.begin(), host.end(), allowed);
 }
 
-// The fault of a server: the field and the reason; an empty field when there is none.
-struct Fault {
-  const char* field = "";
-  std::string reason = {};
-};
-
-Fault fault_of_web(const PacsWeb& web, bool has_tls) {
-  if (std::string fault = fault_of_address(web.url); !fault.empty()) return {"url", std::move(fault)};
-  if (!web.user.empty() && web.secret.empty()) return {"user", "has no secret"};
-  const bool is_plain = !is_encrypted(web.url);
-  if (is_plain && has_tls) return {"tls", "the url begins with http://, which is not encrypted"};
-  if (is_plain && !web.secret.empty() && !is_on_this_machine(web.url)) {
-    return {"secret", "would cross the network in the clear: the url must begin with https://"};
-  }
-  return {};
-}
-
-Fault fault_of_dicom(const PacsServer& server) {
+ServerFault fault_of_dicom(const PacsServer& server) {
   if (!is_host(server.host)) return {"host", "is neither a host name nor an IPv4 address"};
   if (server.port < 1 || server.port > 65535) return {"port", "is not within 1 to 65535"};
   if (!is_ae_title(server.ae_title)) return {"ae_title", "is not 1 to 16 ASCII characters"};
@@ -65,33 +42,10 @@ Fault fault_of_dicom(const PacsServer& server) {
   return {};
 }
 
-Fault fault_of(const PacsServer& server) {
-  if (server.name.empty()) return {"name", "is empty"};
-  if (server.timeout_seconds < 1 || server.timeout_seconds > 3600)
-    return {"timeout_seconds", "is not within 1 to 3600"};
-  if (server.tls && server.tls->certificate.empty() != server.tls->key.empty())
-    return {"tls", "certificate and key go together"};
-  return server.web ? fault_of_web(*server.web, server.tls.has_value()) : fault_of_dicom(server);
-}
-
-fs::path read_path(const JsonField& parent, const char* key, const fs::path& folder) {
-  if (!parent.has(key)) return {};
-  const fs::path path = parent.at(key).text();
-  return path.empty() ? path : (folder / path).lexically_normal();
-}
-
-PacsTls read_tls(const JsonField& field, const fs::path& folder) {
-  field.only({"ca", "certificate", "key", "verify"});
-  PacsTls tls;
-  tls.ca = read_path(field, "ca", folder);
-  tls.certificate = read_path(field, "certificate", folder);
-  tls.key = read_path(field, "key", folder);
-  if (field.has("verify")) tls.verify = field.at("verify").boolean();
-  return tls;
-}
-
-void read_whole(const JsonField& parent, const char* key, int high, int& value) {
-  if (parent.has(key)) value = static_cast<int>(parent.at(key).integer(1, high));
+ServerFault fault_of(const PacsServer& server) {
+  ServerFault fault = fault_of_common(server.name, server.timeout_seconds, server.tls);
+  if (*fault.field != '\0') return fault;
+  return server.web ? fault_of(*server.web, server.tls.has_value()) : fault_of_dicom(server);
 }
 
 void read_dicom_server(const JsonField& field, PacsServer& server) {
@@ -106,27 +60,19 @@ void read_dicom_server(const JsonField& field, PacsServer& server) {
     server.retrieve = PacsServer::Retrieve::move;
 }
 
-PacsWeb read_web(const JsonField& field, const fs::path& folder) {
-  field.only({"name", "url", "user", "secret", "timeout_seconds", "tls"});
-  PacsWeb web;
-  web.url = field.at("url").text(kLongestAddress);
-  web.secret = read_path(field, "secret", folder);
-  if (field.has("user")) web.user = field.at("user").text(253);
-  return web;
-}
-
 PacsServer read_server(const JsonField& field, const fs::path& folder) {
   PacsServer server;
   server.name = field.at("name").text(100);
   if (field.has("url")) {
-    server.web = read_web(field, folder);
+    field.only({"name", "url", "user", "secret", "timeout_seconds", "tls"});
+    server.web = read_web_access(field, folder);
   } else {
     read_dicom_server(field, server);
   }
   read_whole(field, "timeout_seconds", 3600, server.timeout_seconds);
   if (field.has("tls")) server.tls = read_tls(field.at("tls"), folder);
   if (!field.good()) return server;
-  if (const Fault fault = fault_of(server); *fault.field != '\0') {
+  if (const ServerFault fault = fault_of(server); *fault.field != '\0') {
     field.wrong(fmt::format("{}: {}", fault.field, fault.reason));
   }
   return server;
@@ -144,19 +90,6 @@ PacsLimits read_limits(const JsonField& field) {
   if (field.has("objects")) limits.objects = field.at("objects").integer(1, 1'000'000);
   if (field.has("answers")) limits.answers = field.at("answers").integer(1, 100'000);
   return limits;
-}
-
-Result<std::string> text_of(const fs::path& file) {
-  std::error_code error;
-  if (!fs::exists(file, error)) {
-    return fail(ErrorKind::input, "{}: no such file: it says which PACS servers there are", file.string());
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(kLimits.bytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad() || !stream.is_open()) return fail(ErrorKind::input, "{}: cannot be read", file.string());
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
 }
 
 Json to_json(const PacsServer& server) {
@@ -206,22 +139,17 @@ Result<PacsServer> PacsConfiguration::server(const std::string& name) const {
 }
 
 Status check_pacs_server(const PacsServer& server) {
-  const Fault fault = fault_of(server);
+  const ServerFault fault = fault_of(server);
   if (*fault.field == '\0') return {};
   return fail(ErrorKind::input, "PACS server {}: {}: {}", server.name, fault.field, fault.reason);
 }
 
 fs::path pacs_configuration_file() {
-  const char* chosen = std::getenv("XDG_CONFIG_HOME");
-  if (chosen != nullptr && *chosen == '/') return fs::path(chosen) / "tidemark/pacs.json";
-  const char* home = std::getenv("HOME");
-  return fs::path(home != nullptr ? home : "/") / ".config/tidemark/pacs.json";
+  return own_server_file(kFile);
 }
 
 fs::path pacs_configuration_to_read(const fs::path& own) {
-  std::error_code error;
-  const fs::path of_site = site_folder() / "pacs.json";
-  return !fs::exists(own, error) && fs::exists(of_site, error) ? of_site : own;
+  return server_file_to_read(own, kFile);
 }
 
 Result<PacsConfiguration> read_chosen_pacs_configuration(const fs::path& chosen) {
@@ -230,9 +158,9 @@ Result<PacsConfiguration> read_chosen_pacs_configuration(const fs::path& chosen)
 }
 
 Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {
-  const auto text = text_of(file);
+  const auto text = text_of_server_file(file, "it says which PACS servers there are");
   if (!text) return pass_on(text);
-  const auto json = JsonDocument::parse(*text, file.string(), kLimits);
+  const auto json = JsonDocument::parse(*text, file.string(), kServerFileLimits);
   if (!json) return pass_on(json);
   const JsonField root = root_of(*json, file.string());
   root.only({"servers", "limits"});

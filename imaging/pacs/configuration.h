@@ -8,28 +8,9 @@
 #include <vector>
 
 #include "core/result.h"
+#include "imaging/web/web_server.h"
 
 namespace tidemark::imaging {
-
-// Encryption, with files in PEM.
-struct PacsTls {
-  std::filesystem::path ca;  // who may have signed the peer's certificate; empty: the system's authorities
-  std::filesystem::path
-      certificate;            // ours, for servers that ask for one and for retrieval by move; may be empty
-  std::filesystem::path key;  // of our certificate
-  bool verify = true;         // the peer's certificate and, where we call, its host's name
-
-  bool operator==(const PacsTls&) const = default;
-};
-
-// The way to a server by DICOMweb.
-struct PacsWeb {
-  std::string url;               // of the service: "https://pacs.example/dicom-web"
-  std::string user;              // whose password the secret is; empty: it is a token
-  std::filesystem::path secret;  // a file with a password or a token in its only line; may be empty
-
-  bool operator==(const PacsWeb&) const = default;
-};
 
 struct PacsServer {
   enum class Retrieve {
@@ -44,9 +25,10 @@ struct PacsServer {
   std::string own_ae_title = "TIDEMARK";  // by which the server knows us
   Retrieve retrieve = Retrieve::get;
   int move_port = 11112;
-  int timeout_seconds = 30;  // how long the server may take to answer, and to send its next 64 KiB
-  std::optional<PacsTls> tls;
-  std::optional<PacsWeb> web = {};  // instead of DICOM's own protocol: host to move_port count for nothing
+  int timeout_seconds = 30;     // how long the server may take to answer, and to send its next 64 KiB
+  std::optional<TlsFiles> tls;  // retrieval by move needs our certificate
+  std::optional<WebAccess> web =
+      {};  // DICOMweb, instead of DICOM's own protocol: host to move_port count for nothing
 
   // "pacs.example:104", or the url.
   [[nodiscard]] std::string address() const;

@@ -13,6 +13,7 @@
 #include "imaging/pacs/services.h"
 #include "imaging/pacs/storage_classes.h"
 #include "imaging/pacs/web/web_services.h"
+#include "imaging/web/clean_text.h"
 
 namespace tidemark::imaging {
 namespace {

@@ -14,8 +14,8 @@
 #include "core/atomic_file.h"
 #include "core/progress.h"
 #include "core/result.h"
-#include "imaging/pacs/connection_watch.h"
 #include "imaging/pacs/services.h"
+#include "imaging/web/connection_watch.h"
 
 namespace tidemark::imaging {
 

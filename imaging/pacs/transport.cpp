@@ -116,7 +116,7 @@ class TlsTransport final : public DcmTLSTransportLayer {
 };
 
 // The trusted certificates, and the host that they must be for.
-Status set_up_verification(TlsTransport& transport, const PacsTls& tls, TransportRole role,
+Status set_up_verification(TlsTransport& transport, const TlsFiles& tls, TransportRole role,
                            const std::string& host) {
   SSL_CTX* context = transport.getNativeHandle();
   if (!tls.verify) {
@@ -152,7 +152,7 @@ OFCondition read_certificate(Transport& transport, const std::filesystem::path& 
   }
 }
 
-Status set_up_own_certificate(TlsTransport& transport, const PacsTls& tls) {
+Status set_up_own_certificate(TlsTransport& transport, const TlsFiles& tls) {
   if (tls.certificate.empty()) return {};
   // A key with a password must not make the library ask for it on the terminal.
   transport.setPrivateKeyPasswd("");
@@ -172,7 +172,7 @@ Status set_up_own_certificate(TlsTransport& transport, const PacsTls& tls) {
 
 }  // namespace
 
-Result<std::unique_ptr<DcmTransportLayer>> make_transport(const std::optional<PacsTls>& tls,
+Result<std::unique_ptr<DcmTransportLayer>> make_transport(const std::optional<TlsFiles>& tls,
                                                           TransportRole role, const std::string& host,
                                                           NextWatch next_watch) {
   if (!tls) return std::make_unique<PlainTransport>(std::move(next_watch));

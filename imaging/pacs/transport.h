@@ -7,7 +7,7 @@
 
 #include "core/result.h"
 #include "imaging/pacs/configuration.h"
-#include "imaging/pacs/connection_watch.h"
+#include "imaging/web/connection_watch.h"
 
 class DcmTransportLayer;
 
@@ -19,7 +19,7 @@ enum class TransportRole { caller, called };
 // As a caller the peer's certificate must be one for `host`. Fails (ErrorKind::input) naming the file of a
 // key or certificate that is not usable.
 Result<std::unique_ptr<DcmTransportLayer>> make_transport(
-    const std::optional<PacsTls>& tls, TransportRole role, const std::string& host,
+    const std::optional<TlsFiles>& tls, TransportRole role, const std::string& host,
     std::function<std::shared_ptr<ConnectionWatch>()> next_watch);
 
 }  // namespace tidemark::imaging

@@ -197,6 +197,8 @@ void SliceSlabTest::strokes_that_touch_are_one() {
   add({14.0, 4.0, 4.0});
   add({4.0, 4.0, 6.0});  // another slice, one between them
   QCOMPARE(count(), 3);
+  QVERIFY(middles_of_strokes(g, {voxels.begin(), voxels.end()}) ==
+          (std::vector<Index3>{{4, 4, 4}, {14, 4, 4}, {4, 4, 6}}));
   add({4.0, 4.0, 5.0});
   QCOMPARE(count(), 2);
 }

@@ -1,5 +1,5 @@
 // A body of several parts: whole and in pieces it has the same parts, or is refused.
-#include "imaging/pacs/web/multipart.h"
+#include "imaging/web/multipart.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -219,7 +219,7 @@ void ServersDialog::show_entry(int row) {
   const auto text = [](const auto& value) { return QString::fromStdString(std::string(value)); };
   name_->setText(text(server.name));
   protocol_->setCurrentIndex(server.web ? 1 : 0);
-  const imaging::PacsWeb web = server.web.value_or(imaging::PacsWeb{});
+  const imaging::WebAccess web = server.web.value_or(imaging::WebAccess{});
   url_->setText(text(web.url));
   user_->setText(text(web.user));
   secret_->setText(text_of(web.secret));
@@ -232,7 +232,7 @@ void ServersDialog::show_entry(int row) {
   move_port_->show_value(server.move_port);
   move_port_->setEnabled(by_move);
   timeout_->show_value(server.timeout_seconds);
-  const imaging::PacsTls tls = server.tls.value_or(imaging::PacsTls{});
+  const imaging::TlsFiles tls = server.tls.value_or(imaging::TlsFiles{});
   tls_->setChecked(server.tls.has_value());
   ca_->setText(text(tls.ca.string()));
   certificate_->setText(text(tls.certificate.string()));
@@ -246,7 +246,7 @@ void ServersDialog::keep_entry() {
   server.name = entered(*name_);
   server.web.reset();
   if (protocol_->currentIndex() == 1) {
-    server.web = imaging::PacsWeb{entered(*url_), entered(*user_), path_of(secret_->text().trimmed())};
+    server.web = imaging::WebAccess{entered(*url_), entered(*user_), path_of(secret_->text().trimmed())};
   }
   server.host = entered(*host_);
   server.port = entered(*port_);
@@ -259,7 +259,7 @@ void ServersDialog::keep_entry() {
   server.tls.reset();
   if (tls_->isChecked()) {
     server.tls =
-        imaging::PacsTls{entered(*ca_), entered(*certificate_), entered(*key_), verify_->isChecked()};
+        imaging::TlsFiles{entered(*ca_), entered(*certificate_), entered(*key_), verify_->isChecked()};
   }
 }
 

@@ -9,6 +9,7 @@
 #include "solver/coarse_grid.h"
 #include "ui/look/theme.h"
 #include "ui/panels/file_start_method.h"
+#include "ui/panels/model_controls.h"
 #include "ui/panels/smoothing_controls.h"
 #include "ui/panels/start_methods.h"
 #include "ui/widgets/form.h"
@@ -25,6 +26,7 @@ InitialisePanel::InitialisePanel(QWidget* parent)
   add(part);
   add_methods();
   add_start();
+  add(new ModelControls);
   connect(from_, &QComboBox::currentIndexChanged, this, &InitialisePanel::show_method);
   show_method(0);
 }

@@ -39,4 +39,12 @@ QString file_name_of(const engine::LoadedStudy& study) {
   return file_name_of(name);
 }
 
+bool is_of_study(const engine::LoadedStudy& study, const std::filesystem::path& file) {
+  const auto is_it = [&](const std::filesystem::path& other) {
+    std::error_code error;
+    return std::filesystem::equivalent(file, other, error);
+  };
+  return is_it(study.origin.path) || std::any_of(study.dicom_files.begin(), study.dicom_files.end(), is_it);
+}
+
 }  // namespace tidemark::ui

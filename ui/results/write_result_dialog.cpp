@@ -53,15 +53,6 @@ QString note_of(ResultFile kind, const engine::LoadedStudy& study) {
   return source_note(study);
 }
 
-// Files of the study are never written to.
-bool is_of_study(const engine::LoadedStudy& study, const std::filesystem::path& file) {
-  const auto is_it = [&](const std::filesystem::path& other) {
-    std::error_code error;
-    return std::filesystem::equivalent(file, other, error);
-  };
-  return is_it(study.origin.path) || std::any_of(study.dicom_files.begin(), study.dicom_files.end(), is_it);
-}
-
 Status write_kind(const document::SessionContents& contents, ResultFile kind, document::ResultContent content,
                   const std::vector<std::filesystem::path>& source, const std::filesystem::path& file,
                   const Progress& progress) {

@@ -3,10 +3,10 @@
 
 #include "core/json/json_field.h"
 #include "core/stopwatch.h"
-#include "imaging/pacs/answer_text.h"
-#include "imaging/pacs/web/http_connection.h"
-#include "imaging/pacs/web/web_address.h"
 #include "imaging/pacs/web/web_services.h"
+#include "imaging/web/clean_text.h"
+#include "imaging/web/json_answer.h"
+#include "imaging/web/web_address.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -54,23 +54,8 @@ class JsonAnswer final : public FoundAnswer {
   JsonField dataset_;
 };
 
-// The whole answer; empty where the server has nothing (HTTP 204).
 Result<std::string> text_from(HttpConnection& connection, const std::string& resource) {
-  std::string text;
-  const auto answer = connection.ask({resource, kDicomJson, static_cast<std::int64_t>(kMostBytes)},
-                                     [&](const HttpAnswer&, std::string_view bytes) -> Status {
-                                       text += bytes;
-                                       return {};
-                                     });
-  if (!answer) return pass_on(answer);
-  if (!answer->is_good()) return tl::unexpected<Error>(connection.error(*answer));
-  constexpr int kNoContent = 204;
-  if (answer->status == kNoContent) return std::string();
-  if (answer->content_type.find("json") == std::string::npos) {
-    return fail(ErrorKind::input, "{}: answers with '{}', which is not the JSON of DICOM", connection.peer(),
-                clean_text(answer->content_type.substr(0, 100)));
-  }
-  return text;
+  return ask_for_json(connection, {resource, kDicomJson, static_cast<std::int64_t>(kMostBytes)});
 }
 
 std::string question(const std::string& resource, const QueryKeys& keys, std::int64_t limit) {
@@ -85,7 +70,7 @@ std::string question(const std::string& resource, const QueryKeys& keys, std::in
 
 Result<double> echo_by_web(const PacsServer& server, const Progress& progress) {
   progress(0.0, "calling the server");
-  const auto connection = HttpConnection::open(server, progress.stop);
+  const auto connection = open_web(server, progress.stop);
   if (!connection) return pass_on(connection);
   const Stopwatch stopwatch;
   // DICOMweb has no service for it.
@@ -97,7 +82,7 @@ Result<double> echo_by_web(const PacsServer& server, const Progress& progress) {
 Result<bool> ask_by_web(const PacsServer& server, const std::string& resource, const QueryKeys& keys,
                         std::int64_t most, const TakeAnswer& take, const Progress& progress) {
   progress(-1.0, "asking the server");
-  const auto connection = HttpConnection::open(server, progress.stop);
+  const auto connection = open_web(server, progress.stop);
   if (!connection) return pass_on(connection);
   const auto text = text_from(**connection, question(resource, keys, most + 1));
   if (!text) return pass_on(text);

@@ -1,8 +1,8 @@
 #include <fstream>
 
-#include "imaging/pacs/web/http_connection.h"
-#include "imaging/pacs/web/multipart.h"
 #include "imaging/pacs/web/web_services.h"
+#include "imaging/web/http_connection.h"
+#include "imaging/web/multipart.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -66,7 +66,7 @@ std::string resource_of(const RetrieveRequest& request) {
 Result<std::int64_t> retrieve_by_web(const PacsServer& server, const RetrieveRequest& request,
                                      const PacsLimits& limits, RetrievalFolder& retrieval_folder,
                                      const std::stop_token& stop) {
-  const auto connection = HttpConnection::open(server, stop);
+  const auto connection = open_web(server, stop);
   if (!connection) return pass_on(connection);
   ObjectWriter writer(retrieval_folder, limits);
   std::optional<MultipartReader> reader;

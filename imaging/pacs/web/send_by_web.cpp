@@ -1,7 +1,7 @@
 #include "core/json/json_field.h"
-#include "imaging/pacs/web/http_connection.h"
-#include "imaging/pacs/web/multipart.h"
 #include "imaging/pacs/web/web_services.h"
+#include "imaging/web/http_connection.h"
+#include "imaging/web/multipart.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -65,7 +65,7 @@ class WebSender final : public ObjectSender {
 }  // namespace
 
 Result<std::unique_ptr<ObjectSender>> open_web_sender(const PacsServer& server, const std::stop_token& stop) {
-  auto connection = HttpConnection::open(server, stop);
+  auto connection = open_web(server, stop);
   if (!connection) return pass_on(connection);
   return std::make_unique<WebSender>(std::move(*connection));
 }

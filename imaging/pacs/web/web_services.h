@@ -10,10 +10,14 @@
 #include "imaging/pacs/outgoing.h"
 #include "imaging/pacs/retrieval_folder.h"
 #include "imaging/pacs/services.h"
+#include "imaging/web/http_connection.h"
 
 namespace tidemark::imaging {
 
 inline constexpr const char* kDicomJson = "application/dicom+json";  // PS3.18, annex F
+
+// Fails (ErrorKind::input) naming the field or the file that is not usable. Nobody is called yet.
+Result<std::unique_ptr<HttpConnection>> open_web(const PacsServer& server, const std::stop_token& stop);
 
 Result<double> echo_by_web(const PacsServer& server, const Progress& progress);
 

@@ -141,7 +141,7 @@ WebArchive::WebArchive(const TlsFiles* tls, const std::string& user) {
   server_.ae_title = "ORTHANC";
   web_server_.name = "web";
   web_server_.timeout_seconds = 20;
-  imaging::PacsWeb& web = web_server_.web.emplace();
+  imaging::WebAccess& web = web_server_.web.emplace();
   web.url = fmt::format("{}://localhost:{}/dicom-web", tls != nullptr ? "https" : "http", called);
   std::string more = fmt::format(
       R"("DefaultEncoding": "Utf8", "HttpServerEnabled": true, "RemoteAccessAllowed": true, "HttpPort": {}, "Plugins": ["{}"],
@@ -165,7 +165,7 @@ WebArchive::~WebArchive() {
 }
 
 void WebArchive::start_front(const TlsFiles& tls, int port, int to) {
-  web_server_.tls = imaging::PacsTls{tls.authority, {}, {}, true};
+  web_server_.tls = imaging::TlsFiles{tls.authority, {}, {}, true};
   front_.start("python3",
                {TIDEMARK_TLS_FRONT, QString::number(port), QString::number(to),
                 QString::fromStdString(tls.certificate.string()), QString::fromStdString(tls.key.string())});

@@ -30,13 +30,13 @@ class PacsConfigurationTest : public QObject {
                                      .retrieve = imaging::PacsServer::Retrieve::move,
                                      .move_port = 4242,
                                      .timeout_seconds = 7,
-                                     .tls = imaging::PacsTls{"/ca.pem", "/own.pem", "/key.pem", false}});
+                                     .tls = imaging::TlsFiles{"/ca.pem", "/own.pem", "/key.pem", false}});
     configuration.servers.push_back({.name = "other", .host = "10.0.0.1", .ae_title = "OTHER", .tls = {}});
     imaging::PacsServer& web = configuration.servers.emplace_back();
     web.name = "web";
     web.timeout_seconds = 9;
-    web.tls = imaging::PacsTls{"/ca.pem", {}, {}, true};
-    web.web = imaging::PacsWeb{"https://pacs.example:8043/dicom-web", "reader", "/secret.txt"};
+    web.tls = imaging::TlsFiles{"/ca.pem", {}, {}, true};
+    web.web = imaging::WebAccess{"https://pacs.example:8043/dicom-web", "reader", "/secret.txt"};
     configuration.limits = {std::int64_t{1} << 20, std::int64_t{2} << 20, 3, std::int64_t{4} << 20, 5};
     const auto file = folder / "new/folder/pacs.json";
     QCOMPARE(failure(imaging::write_pacs_configuration(configuration, file)), QString());

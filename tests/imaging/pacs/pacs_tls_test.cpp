@@ -23,7 +23,7 @@ class PacsTlsTest : public QObject {
         QStringList{"+tls", text(own.key), text(own.certificate), "+cf", text(authority.authority())});
   }
 
-  static imaging::PacsServer reached(const Archive& peer, const imaging::PacsTls& tls) {
+  static imaging::PacsServer reached(const Archive& peer, const imaging::TlsFiles& tls) {
     imaging::PacsServer server = peer.server();
     server.tls = tls;
     server.timeout_seconds = 10;
@@ -59,7 +59,7 @@ class PacsTlsTest : public QObject {
     const auto own = authority.signed_for("workstation.example");
     const TlsFiles files{authority.authority(), of_archive.certificate, of_archive.key};
     const auto archive = start_orthanc(&files);
-    const imaging::PacsTls tls{authority.authority(), own.certificate, own.key, true};
+    const imaging::TlsFiles tls{authority.authority(), own.certificate, own.key, true};
     const imaging::PacsServer by_get = reached(*archive, tls);
     const TemporaryFolder folder;
     const Volume volume = sample_volume({64, 64, 3});
@@ -84,12 +84,12 @@ class PacsTlsTest : public QObject {
     const Certificates authority;
     const Certificates stranger;
     const auto own = authority.signed_for("workstation.example");
-    const imaging::PacsTls tls{authority.authority(), own.certificate, own.key, true};
+    const imaging::TlsFiles tls{authority.authority(), own.certificate, own.key, true};
 
     const auto of_stranger = peer_with(stranger.signed_for("localhost"), authority);
     QVERIFY2(said(imaging::pacs_echo(reached(*of_stranger, tls))).contains("certificate"),
              qPrintable(said(imaging::pacs_echo(reached(*of_stranger, tls)))));
-    imaging::PacsTls unverified = tls;
+    imaging::TlsFiles unverified = tls;
     unverified.verify = false;
     QCOMPARE(said(imaging::pacs_echo(reached(*of_stranger, unverified))), QString("it answers"));
 
@@ -115,7 +115,7 @@ class PacsTlsTest : public QObject {
     const auto peer = peer_with(authority.signed_for("localhost"), authority);
     QVERIFY(said(imaging::pacs_echo(reached(*peer, {authority.authority(), {}, {}, true}))) != "it answers");
     const auto own = stranger.signed_for("workstation.example");
-    const imaging::PacsTls tls{authority.authority(), own.certificate, own.key, true};
+    const imaging::TlsFiles tls{authority.authority(), own.certificate, own.key, true};
     QVERIFY(said(imaging::pacs_echo(reached(*peer, tls))) != "it answers");
   }
 
@@ -133,7 +133,7 @@ class PacsTlsTest : public QObject {
     const Certificates authority;
     const ScriptedPeer peer([](PeerEnd& end) { end.say_nothing(); });
     imaging::PacsServer server = peer.server();
-    server.tls = imaging::PacsTls{authority.authority(), {}, {}, true};
+    server.tls = imaging::TlsFiles{authority.authority(), {}, {}, true};
     const QString message = said(imaging::pacs_echo(server));
     QVERIFY2(message.contains("is too slow") || message.contains("does not answer"), qPrintable(message));
   }
@@ -144,13 +144,13 @@ class PacsTlsTest : public QObject {
     const auto other = authority.signed_for("other.example");
     const ScriptedPeer peer([](PeerEnd& end) { end.say_nothing(); });
     imaging::PacsServer server = peer.server();
-    server.tls = imaging::PacsTls{"/none/ca.pem", {}, {}, true};
+    server.tls = imaging::TlsFiles{"/none/ca.pem", {}, {}, true};
     QVERIFY2(said(imaging::pacs_echo(server)).startsWith("/none/ca.pem: no certificate"),
              qPrintable(said(imaging::pacs_echo(server))));
-    server.tls = imaging::PacsTls{authority.authority(), own.certificate, "/none/key.pem", true};
+    server.tls = imaging::TlsFiles{authority.authority(), own.certificate, "/none/key.pem", true};
     QVERIFY2(said(imaging::pacs_echo(server)).startsWith("/none/key.pem: no private key"),
              qPrintable(said(imaging::pacs_echo(server))));
-    server.tls = imaging::PacsTls{authority.authority(), own.certificate, other.key, true};
+    server.tls = imaging::TlsFiles{authority.authority(), own.certificate, other.key, true};
     QVERIFY2(said(imaging::pacs_echo(server)).contains("is not the key of"),
              qPrintable(said(imaging::pacs_echo(server))));
   }

@@ -86,7 +86,7 @@ class PacsWebHostileTest : public QObject {
     QTest::newRow("hangs up in the head") << Behaviour([](PeerEnd& end) {
       end.read_request();
       end.write("HTTP/1.1 200 OK\r\nContent-Le");
-    }) << "answers with '', which is not the JSON of DICOM";
+    }) << "answers with '', which is not JSON";
     QTest::newRow("says nothing") << says("") << "does not answer: nothing came for 1 s";
     QTest::newRow("drips") << Behaviour([](PeerEnd& end) {
       end.read_request();
@@ -112,7 +112,7 @@ class PacsWebHostileTest : public QObject {
     QTest::newRow("is broken") << says(answer("500 Oops", "", std::string(200'000, 'x')))
                                << "refuses the request (HTTP 500)";
     QTest::newRow("a page") << says(answer("200 OK", "Content-Type: text/html\r\n", "<html>Log in</html>"))
-                            << "answers with 'text/html', which is not the JSON of DICOM";
+                            << "answers with 'text/html', which is not JSON";
     QTest::newRow("compressed") << says(
                                        answer("200 OK", kJsonType + "Content-Encoding: gzip\r\n", "\x1f\x8b"))
                                 << "compresses its answer";

@@ -162,7 +162,7 @@ imaging::PacsServer ScriptedPeer::server() const {
 imaging::PacsServer ScriptedPeer::web_server() const {
   imaging::PacsServer server;
   server.name = "peer";
-  server.web = imaging::PacsWeb{fmt::format("http://127.0.0.1:{}/web", port_), {}, {}};
+  server.web = imaging::WebAccess{fmt::format("http://127.0.0.1:{}/web", port_), {}, {}};
   server.timeout_seconds = 1;
   return server;
 }

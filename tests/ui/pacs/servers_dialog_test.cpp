@@ -79,7 +79,7 @@ class ServersDialogTest : public QObject {
 
   void a_server_of_dicomweb_is_entered_tested_and_kept() {
     const WebArchive archive(nullptr, "reader");
-    const imaging::PacsWeb web = *archive.web_server().web;
+    const imaging::WebAccess web = *archive.web_server().web;
     const TemporaryFolder folder;
     const auto file = folder / "pacs.json";
     ui::ServersDialog dialog(file);
@@ -147,7 +147,7 @@ class ServersDialogTest : public QObject {
     imaging::PacsConfiguration configuration;
     for (const char* name : {"a", "b", "c"})
       configuration.servers.push_back(
-          {.name = name, .host = name, .ae_title = name, .tls = imaging::PacsTls{"/ca.pem", {}, {}, true}});
+          {.name = name, .host = name, .ae_title = name, .tls = imaging::TlsFiles{"/ca.pem", {}, {}, true}});
     QCOMPARE(failure(imaging::write_pacs_configuration(configuration, folder / "pacs.json")), QString());
     ui::ServersDialog dialog(folder / "pacs.json");
     dialog.show();

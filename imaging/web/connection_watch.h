@@ -14,7 +14,7 @@
 
 namespace tidemark::imaging {
 
-// DCMTK reads and writes with calls that block. While such a call waits, a thread of the watch looks at the
+// DCMTK and libcurl work with calls that block. While such a call waits, a thread of the watch looks at the
 // clock: in every `patience` of waiting the peer must have sent or taken 64 KiB, or completed a message.
 // Otherwise, and on a request to stop, the socket is shut down. Every blocked call then returns at once, also
 // in the midst of a TLS record. A shut connection stays shut; trouble() has the reason.

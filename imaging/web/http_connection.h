@@ -11,8 +11,8 @@
 
 #include "core/result.h"
 #include "imaging/guard/byte_source.h"
-#include "imaging/pacs/configuration.h"
-#include "imaging/pacs/connection_watch.h"
+#include "imaging/web/connection_watch.h"
+#include "imaging/web/web_server.h"
 
 namespace tidemark::imaging {
 
@@ -38,7 +38,7 @@ struct HttpAnswer {
 class HttpConnection {
  public:
   // Fails (ErrorKind::input) naming the field or the file that is not usable. The server is called by ask().
-  static Result<std::unique_ptr<HttpConnection>> open(const PacsServer& server, const std::stop_token& stop);
+  static Result<std::unique_ptr<HttpConnection>> open(const WebServer& server, const std::stop_token& stop);
 
   // Gets the body of a good answer, piece by piece, with the head that came before it.
   using TakeBody = std::function<Status(const HttpAnswer& head, std::string_view bytes)>;
@@ -52,12 +52,12 @@ class HttpConnection {
   [[nodiscard]] const std::string& peer() const { return watch_.peer(); }
 
  private:
-  HttpConnection(const PacsServer& server, const std::stop_token& stop);
+  HttpConnection(const WebServer& server, const std::stop_token& stop);
   Status authenticate();
   void encrypt();
   [[nodiscard]] std::string reason(int code, const char* detail) const;
 
-  const PacsServer server_;
+  const WebServer server_;
   const std::stop_token stop_;
   ConnectionWatch watch_;
   std::unique_ptr<void, void (*)(void*)> handle_;  // libcurl's; goes before the watch, which it tells

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/pacs/web/multipart.h"
+#include "imaging/web/multipart.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

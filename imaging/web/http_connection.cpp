@@ -1,4 +1,4 @@
-#include "imaging/pacs/web/http_connection.h"
+#include "imaging/web/http_connection.h"
 
 #include <curl/curl.h>
 #include <strings.h>
@@ -11,8 +11,8 @@
 #include "core/progress.h"
 #include "core/text_file.h"
 #include "core/without_exceptions.h"
-#include "imaging/pacs/answer_text.h"
-#include "imaging/pacs/web/web_address.h"
+#include "imaging/web/clean_text.h"
+#include "imaging/web/web_address.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -141,16 +141,18 @@ Result<std::string> secret_in(const std::filesystem::path& file) {
 
 }  // namespace
 
-HttpConnection::HttpConnection(const PacsServer& server, const std::stop_token& stop)
+HttpConnection::HttpConnection(const WebServer& server, const std::stop_token& stop)
     : server_(server),
       stop_(stop),
-      watch_(fmt::format("PACS {} ({})", server.name, server.address()),
+      watch_(fmt::format("{} ({})", server.title, server.access.url),
              std::chrono::seconds(server.timeout_seconds), stop),
       handle_(curl_easy_init(), curl_easy_cleanup) {}
 
-Result<std::unique_ptr<HttpConnection>> HttpConnection::open(const PacsServer& server,
+Result<std::unique_ptr<HttpConnection>> HttpConnection::open(const WebServer& server,
                                                              const std::stop_token& stop) {
-  TIDEMARK_TRY(check_pacs_server(server));
+  if (const ServerFault fault = fault_of(server.access, server.tls.has_value()); *fault.field != '\0') {
+    return fail(ErrorKind::input, "{}: {}: {}", server.title, fault.field, fault.reason);
+  }
   static const CURLcode kReady = curl_global_init(CURL_GLOBAL_DEFAULT);
   std::unique_ptr<HttpConnection> connection(new HttpConnection(server, stop));
   CURL* handle = connection->handle_.get();
@@ -167,23 +169,23 @@ Result<std::unique_ptr<HttpConnection>> HttpConnection::open(const PacsServer& s
   curl_easy_setopt(handle, CURLOPT_CLOSESOCKETFUNCTION, on_close);
   curl_easy_setopt(handle, CURLOPT_CLOSESOCKETDATA, &connection->watch_);
   // What is on this machine no proxy can reach.
-  if (is_on_this_machine(server.web->url)) curl_easy_setopt(handle, CURLOPT_PROXY, "");
+  if (is_on_this_machine(server.access.url)) curl_easy_setopt(handle, CURLOPT_PROXY, "");
   connection->encrypt();
   TIDEMARK_TRY(connection->authenticate());
   return connection;
 }
 
 Status HttpConnection::authenticate() {
-  if (server_.web->secret.empty()) return {};
-  const auto secret = secret_in(server_.web->secret);
+  if (server_.access.secret.empty()) return {};
+  const auto secret = secret_in(server_.access.secret);
   if (!secret) return pass_on(secret);
   CURL* handle = handle_.get();
-  if (server_.web->user.empty()) {
+  if (server_.access.user.empty()) {
     curl_easy_setopt(handle, CURLOPT_HTTPAUTH, static_cast<long>(CURLAUTH_BEARER));
     curl_easy_setopt(handle, CURLOPT_XOAUTH2_BEARER, secret->c_str());
   } else {
     curl_easy_setopt(handle, CURLOPT_HTTPAUTH, static_cast<long>(CURLAUTH_BASIC));
-    curl_easy_setopt(handle, CURLOPT_USERNAME, server_.web->user.c_str());
+    curl_easy_setopt(handle, CURLOPT_USERNAME, server_.access.user.c_str());
     curl_easy_setopt(handle, CURLOPT_PASSWORD, secret->c_str());
   }
   return {};
@@ -193,7 +195,7 @@ void HttpConnection::encrypt() {
   CURL* handle = handle_.get();
   curl_easy_setopt(handle, CURLOPT_SSLVERSION, static_cast<long>(CURL_SSLVERSION_TLSv1_2));
   if (!server_.tls) return;
-  const PacsTls& tls = *server_.tls;
+  const TlsFiles& tls = *server_.tls;
   curl_easy_setopt(handle, CURLOPT_SSL_VERIFYPEER, tls.verify ? 1L : 0L);
   curl_easy_setopt(handle, CURLOPT_SSL_VERIFYHOST, tls.verify ? 2L : 0L);
   if (!tls.ca.empty()) curl_easy_setopt(handle, CURLOPT_CAINFO, tls.ca.c_str());
@@ -220,7 +222,7 @@ Result<HttpAnswer> HttpConnection::ask(const HttpRequest& request, const TakeBod
   } else {
     curl_easy_setopt(handle, CURLOPT_HTTPGET, 1L);
   }
-  curl_easy_setopt(handle, CURLOPT_URL, (server_.web->url + "/" + request.resource).c_str());
+  curl_easy_setopt(handle, CURLOPT_URL, (server_.access.url + "/" + request.resource).c_str());
   curl_easy_setopt(handle, CURLOPT_HTTPHEADER, headers.get());
   curl_easy_setopt(handle, CURLOPT_ERRORBUFFER, detail);
   curl_easy_setopt(handle, CURLOPT_WRITEFUNCTION, on_body);
@@ -296,7 +298,7 @@ Error HttpConnection::error(const HttpAnswer& answer) const {
   if (answer.status == 401 || answer.status == 403) {
     return say(fmt::format(
         "does not let us in (HTTP {}): {}", answer.status,
-        server_.web->secret.empty() ? "it wants a secret" : "the user or the secret is not the right one"));
+        server_.access.secret.empty() ? "it wants a secret" : "the user or the secret is not the right one"));
   }
   if (answer.status == 404) return say("has nothing at this address (HTTP 404)");
   return say(fmt::format("refuses the request (HTTP {})", answer.status));

@@ -1,4 +1,4 @@
-#include "imaging/pacs/web/web_address.h"
+#include "imaging/web/web_address.h"
 
 #include <curl/curl.h>
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ class Address {
 
 std::string fault_of_address(const std::string& url) {
   const Address address(url);
-  if (!address.is_good()) return "is no address: https://pacs.example/dicom-web is one";
+  if (!address.is_good()) return "is no address: https://server.example/service is one";
   const std::string scheme = address.part(CURLUPART_SCHEME);
   if (scheme != "https" && scheme != "http") return "begins with neither https:// nor http://";
   if (!address.part(CURLUPART_USER).empty() || !address.part(CURLUPART_PASSWORD).empty()) {
@@ -55,11 +55,13 @@ bool is_on_this_machine(const std::string& url) {
   return host == "localhost" || host == "127.0.0.1" || host == "[::1]";
 }
 
-std::string escaped(const std::string& text) {
+std::string escaped(const std::string& text, const char* kept) {
   std::string all;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool is_plain = byte < 0x80 && (std::isalnum(byte) != 0 || std::strchr("-._~*?", c) != nullptr);
+    const bool is_plain =
+        byte != 0 && byte < 0x80 &&
+        (std::isalnum(byte) != 0 || std::strchr("-._~", c) != nullptr || std::strchr(kept, c) != nullptr);
     all += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
   }
   return all;

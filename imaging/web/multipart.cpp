@@ -1,4 +1,4 @@
-#include "imaging/pacs/web/multipart.h"
+#include "imaging/web/multipart.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-// The address of a DICOMweb service: "https://pacs.example/dicom-web".
+// The address of a service on the web: "https://pacs.example/dicom-web".
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace tidemark::imaging {
 // What goes there leaves this machine in no way.
 [[nodiscard]] bool is_on_this_machine(const std::string& url);
 
-// As a value in the question of an address: what has a meaning there is escaped. The wildcards * and ? have
-// none there, and stay: some servers do not look for escaped ones.
-[[nodiscard]] std::string escaped(const std::string& text);
+// As a part of an address: what has a meaning there is escaped, but for the characters to keep. The wildcards
+// * and ? have none in the question of an address: some servers do not look for escaped ones.
+[[nodiscard]] std::string escaped(const std::string& text, const char* kept = "*?");
 
 }  // namespace tidemark::imaging

@@ -1,4 +1,4 @@
-#include "imaging/pacs/connection_watch.h"
+#include "imaging/web/connection_watch.h"
 
 #include <sys/socket.h>
 
