@@ -7,6 +7,7 @@
 #include <cctype>
 #include <system_error>
 
+#include "imaging/audit/event.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
 
@@ -167,11 +168,14 @@ Status Outputs::stage(const std::filesystem::path& file,
 }
 
 Status Outputs::commit() {
+  Status committed;
   for (AtomicFile& staged : staged_) {
-    TIDEMARK_TRY(staged.commit());
+    committed = staged.commit();
+    if (!committed) break;
   }
-  staged_.clear();
-  return {};
+  if (committed) staged_.clear();
+  // Of which studies, the audit of the command knows.
+  return imaging::exported(std::move(committed), {}, files_);
 }
 
 }  // namespace tidemark::cli

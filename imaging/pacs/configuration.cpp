@@ -1,7 +1,6 @@
 #include "imaging/pacs/configuration.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -11,6 +10,7 @@
 #include "core/json/json_field.h"
 #include "core/json/json_text.h"
 #include "core/site_folder.h"
+#include "core/user_folders.h"
 #include "imaging/pacs/web/web_address.h"
 
 namespace tidemark::imaging {
@@ -28,13 +28,6 @@ bool is_ae_title(const std::string& title) {
   const auto allowed = [](char c) { return c >= 0x20 && c < 0x7f && c != '\\'; };
   return !title.empty() && title.size() <= 16 && title.front() != ' ' && title.back() != ' ' &&
          std::all_of(title.begin(), title.end(), allowed);
-}
-
-bool is_host(const std::string& host) {
-  const auto allowed = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_';
-  };
-  return !host.empty() && host.size() <= 253 && std::all_of(host.begin(), host.end(), allowed);
 }
 
 // The fault of a server: the field and the reason; an empty field when there is none.
@@ -69,25 +62,9 @@ Fault fault_of(const PacsServer& server) {
   if (server.name.empty()) return {"name", "is empty"};
   if (server.timeout_seconds < 1 || server.timeout_seconds > 3600)
     return {"timeout_seconds", "is not within 1 to 3600"};
-  if (server.tls && server.tls->certificate.empty() != server.tls->key.empty())
-    return {"tls", "certificate and key go together"};
+  if (std::string fault = server.tls ? fault_of(*server.tls) : std::string(); !fault.empty())
+    return {"tls", std::move(fault)};
   return server.web ? fault_of_web(*server.web, server.tls.has_value()) : fault_of_dicom(server);
-}
-
-fs::path read_path(const JsonField& parent, const char* key, const fs::path& folder) {
-  if (!parent.has(key)) return {};
-  const fs::path path = parent.at(key).text();
-  return path.empty() ? path : (folder / path).lexically_normal();
-}
-
-PacsTls read_tls(const JsonField& field, const fs::path& folder) {
-  field.only({"ca", "certificate", "key", "verify"});
-  PacsTls tls;
-  tls.ca = read_path(field, "ca", folder);
-  tls.certificate = read_path(field, "certificate", folder);
-  tls.key = read_path(field, "key", folder);
-  if (field.has("verify")) tls.verify = field.at("verify").boolean();
-  return tls;
 }
 
 void read_whole(const JsonField& parent, const char* key, int high, int& value) {
@@ -211,11 +188,13 @@ Status check_pacs_server(const PacsServer& server) {
   return fail(ErrorKind::input, "PACS server {}: {}: {}", server.name, fault.field, fault.reason);
 }
 
+AuditedPeer audited_peer(const PacsServer& server) {
+  if (!server.web) return {server.host, {}, server.ae_title, server.own_ae_title};
+  return {host_of(server.web->url), server.web->url, {}, {}};
+}
+
 fs::path pacs_configuration_file() {
-  const char* chosen = std::getenv("XDG_CONFIG_HOME");
-  if (chosen != nullptr && *chosen == '/') return fs::path(chosen) / "tidemark/pacs.json";
-  const char* home = std::getenv("HOME");
-  return fs::path(home != nullptr ? home : "/") / ".config/tidemark/pacs.json";
+  return user_configuration_file("pacs.json");
 }
 
 fs::path pacs_configuration_to_read(const fs::path& own) {

@@ -8,19 +8,10 @@
 #include <vector>
 
 #include "core/result.h"
+#include "imaging/audit/event.h"
+#include "imaging/pacs/tls_files.h"
 
 namespace tidemark::imaging {
-
-// Encryption, with files in PEM.
-struct PacsTls {
-  std::filesystem::path ca;  // who may have signed the peer's certificate; empty: the system's authorities
-  std::filesystem::path
-      certificate;            // ours, for servers that ask for one and for retrieval by move; may be empty
-  std::filesystem::path key;  // of our certificate
-  bool verify = true;         // the peer's certificate and, where we call, its host's name
-
-  bool operator==(const PacsTls&) const = default;
-};
 
 // The way to a server by DICOMweb.
 struct PacsWeb {
@@ -73,7 +64,7 @@ struct PacsConfiguration {
   [[nodiscard]] Result<PacsServer> server(const std::string& name) const;
 };
 
-// $XDG_CONFIG_HOME/tidemark/pacs.json, else ~/.config/tidemark/pacs.json.
+// pacs.json of user_configuration_file().
 [[nodiscard]] std::filesystem::path pacs_configuration_file();
 
 // Which of both to read: `own` where it is there, else the site's, pacs.json in site_folder(), where that is.
@@ -88,6 +79,9 @@ Result<PacsConfiguration> read_chosen_pacs_configuration(const std::filesystem::
 
 // Makes the folder where it is missing. Fails (ErrorKind::write).
 Status write_pacs_configuration(const PacsConfiguration& configuration, const std::filesystem::path& file);
+
+// The server as the other side of what is audited.
+[[nodiscard]] AuditedPeer audited_peer(const PacsServer& server);
 
 // Whether a conversation can be tried at all. Fails (ErrorKind::input) naming the field.
 Status check_pacs_server(const PacsServer& server);

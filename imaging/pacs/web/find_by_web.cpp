@@ -73,6 +73,8 @@ Result<std::string> text_from(HttpConnection& connection, const std::string& res
   return text;
 }
 
+}  // namespace
+
 std::string question(const std::string& resource, const QueryKeys& keys, std::int64_t limit) {
   std::string all = fmt::format("{}?limit={}", resource, limit);
   for (const auto& [key, value] : keys) {
@@ -80,8 +82,6 @@ std::string question(const std::string& resource, const QueryKeys& keys, std::in
   }
   return all;
 }
-
-}  // namespace
 
 Result<double> echo_by_web(const PacsServer& server, const Progress& progress) {
   progress(0.0, "calling the server");

@@ -1,0 +1,47 @@
+#include "app/cli/audit.h"
+
+#include <chrono>
+#include <utility>
+
+namespace tidemark::cli {
+
+Result<std::shared_ptr<CommandAudit>> CommandAudit::begin(Console& console) {
+  // What waits is said at the end; what is lost, at once.
+  const auto tell = [&console](const Error& notice) {
+    if (notice.kind != ErrorKind::input) console.warn(notice.message);
+  };
+  auto log = imaging::AuditLog::start_if_wanted("tidemark-cli", tell);
+  if (!log) return pass_on(log);
+  if (*log == nullptr) return std::shared_ptr<CommandAudit>();
+  std::shared_ptr<CommandAudit> audit(new CommandAudit(std::move(*log)));
+  imaging::set_audit_sink(audit);
+  return audit;
+}
+
+void CommandAudit::take(const imaging::AuditEvent& event) {
+  using Kind = imaging::AuditEvent::Kind;
+  std::vector<imaging::AuditedStudy> opened;
+  {
+    const std::lock_guard lock(mutex_);
+    if ((event.kind == Kind::accessed || event.kind == Kind::imported) && event.failure.empty())
+      add_study(opened_, event.study);
+    if (event.kind == Kind::exported && !event.study.is_known()) opened = opened_;
+  }
+  if (opened.empty()) return log_->take(event);
+  imaging::AuditEvent of_study = event;
+  for (const imaging::AuditedStudy& study : opened) {
+    of_study.study = study;
+    log_->take(of_study);
+  }
+}
+
+void CommandAudit::finish(Console& console) {
+  constexpr std::chrono::seconds kPatience(2);
+  const imaging::AuditLog::Left left = log_->finish(kPatience, console.progress().stop);
+  imaging::set_audit_sink(nullptr);
+  if (left.messages == 0 || console.interrupted()) return;
+  console.warn(fmt::format("{} audit messages wait to be delivered{}{}", left.messages,
+                           left.reason.empty() ? "" : ": ", left.reason));
+}
+
+}  // namespace tidemark::cli
