@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace tidemark::cli {
+namespace {
+
+std::weak_ptr<CommandAudit> current_audit;
+
+}  // namespace
 
 Result<std::shared_ptr<CommandAudit>> CommandAudit::begin(Console& console) {
   // What waits is said at the end; what is lost, at once.
@@ -15,24 +20,31 @@ Result<std::shared_ptr<CommandAudit>> CommandAudit::begin(Console& console) {
   if (*log == nullptr) return std::shared_ptr<CommandAudit>();
   std::shared_ptr<CommandAudit> audit(new CommandAudit(std::move(*log)));
   imaging::set_audit_sink(audit);
+  current_audit = audit;
   return audit;
 }
 
 void CommandAudit::take(const imaging::AuditEvent& event) {
   using Kind = imaging::AuditEvent::Kind;
-  std::vector<imaging::AuditedStudy> opened;
-  {
+  if ((event.kind == Kind::accessed || event.kind == Kind::imported) && event.failure.empty()) {
     const std::lock_guard lock(mutex_);
-    if ((event.kind == Kind::accessed || event.kind == Kind::imported) && event.failure.empty())
-      add_study(opened_, event.study);
-    if (event.kind == Kind::exported && !event.study.is_known()) opened = opened_;
+    add_study(opened_, event.study);
   }
-  if (opened.empty()) return log_->take(event);
-  imaging::AuditEvent of_study = event;
-  for (const imaging::AuditedStudy& study : opened) {
-    of_study.study = study;
-    log_->take(of_study);
+  log_->take(event);
+}
+
+std::vector<imaging::AuditedStudy> CommandAudit::opened() {
+  const std::lock_guard lock(mutex_);
+  return opened_;
+}
+
+Status exported(Status status, const std::vector<std::filesystem::path>& files) {
+  const auto audit = current_audit.lock();
+  if (audit == nullptr) return status;
+  for (const imaging::AuditedStudy& study : audit->opened()) {
+    status = imaging::exported(std::move(status), study, files);
   }
+  return status;
 }
 
 void CommandAudit::finish(Console& console) {

@@ -1,6 +1,7 @@
 // The audit log of one command.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -10,14 +11,14 @@
 
 namespace tidemark::cli {
 
-// What a command writes is of the studies that it has opened: an export that names no study is one of each of
-// them.
+// It remembers the studies that the command has opened: what the command writes is of them.
 class CommandAudit final : public imaging::AuditSink {
  public:
   // Null where nothing is audited. Fails where it is wanted and does not work. It ends with finish().
   static Result<std::shared_ptr<CommandAudit>> begin(Console& console);
 
   void take(const imaging::AuditEvent& event) override;
+  [[nodiscard]] std::vector<imaging::AuditedStudy> opened();
 
   // Waits at most two seconds for the deliveries, and warns of messages that wait. Not after an interrupt.
   void finish(Console& console);
@@ -29,5 +30,9 @@ class CommandAudit final : public imaging::AuditSink {
   std::mutex mutex_;
   std::vector<imaging::AuditedStudy> opened_;
 };
+
+// Records that files were written, or could not be, of all studies that the command has opened, and hands
+// `status` on.
+Status exported(Status status, const std::vector<std::filesystem::path>& files);
 
 }  // namespace tidemark::cli

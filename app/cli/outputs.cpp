@@ -7,7 +7,7 @@
 #include <cctype>
 #include <system_error>
 
-#include "imaging/audit/event.h"
+#include "app/cli/audit.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
 
@@ -174,8 +174,7 @@ Status Outputs::commit() {
     if (!committed) break;
   }
   if (committed) staged_.clear();
-  // Of which studies, the audit of the command knows.
-  return imaging::exported(std::move(committed), {}, files_);
+  return exported(std::move(committed), files_);
 }
 
 }  // namespace tidemark::cli

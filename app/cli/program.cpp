@@ -11,6 +11,7 @@
 #include "app/cli/audit.h"
 #include "app/cli/interrupt.h"
 #include "core/out_of_memory.h"
+#include "core/without_exceptions.h"
 
 namespace tidemark::cli {
 namespace {
@@ -135,7 +136,7 @@ int run_unguarded(int argc, char** argv, Program& program) {
   }
   const auto audit = CommandAudit::begin(program.console);
   if (!audit) return program.console.finish(tl::unexpected<Error>(audit.error()));
-  const Status done = program.chosen();
+  const Status done = without_exceptions(program.chosen);
   if (*audit) (*audit)->finish(program.console);
   return program.console.finish(done);
 }

@@ -45,8 +45,12 @@ std::string failure_of(const Status& status) {
 }
 
 Status exported(Status status, const AuditedStudy& study, const std::vector<std::filesystem::path>& files) {
-  record_audit(
-      {.kind = AuditEvent::Kind::exported, .study = study, .failure = failure_of(status), .files = files});
+  AuditedStudy of_files = study;
+  of_files.objects.clear();  // the files are results, not the images that they were made of
+  record_audit({.kind = AuditEvent::Kind::exported,
+                .study = std::move(of_files),
+                .failure = failure_of(status),
+                .files = files});
   return status;
 }
 

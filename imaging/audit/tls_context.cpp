@@ -1,5 +1,6 @@
 #include <openssl/err.h>
 #include <openssl/ssl.h>
+#include <openssl/x509.h>
 
 #include "imaging/audit/stream_connection.h"
 
@@ -42,11 +43,13 @@ Status show(SSL_CTX& context, const PacsTls& tls) {
   if (SSL_CTX_use_certificate_chain_file(&context, tls.certificate.c_str()) != 1) {
     return no_certificate(tls.certificate);
   }
-  if (SSL_CTX_use_PrivateKey_file(&context, tls.key.c_str(), SSL_FILETYPE_PEM) != 1) {
+  if (SSL_CTX_use_PrivateKey_file(&context, tls.key.c_str(), SSL_FILETYPE_PEM) != 1 &&
+      ERR_GET_REASON(ERR_peek_error()) != X509_R_KEY_VALUES_MISMATCH) {
     return fail(ErrorKind::input, "{}: no private key can be read from it: {}", tls.key.string(),
                 tls_reason());
   }
   if (SSL_CTX_check_private_key(&context) != 1) {
+    ERR_clear_error();
     return fail(ErrorKind::input, "{}: is not the key of {}", tls.key.string(), tls.certificate.string());
   }
   return {};

@@ -9,6 +9,7 @@
 #include <QTest>
 #include <QXmlStreamReader>
 #include <chrono>
+#include <cstdlib>
 
 #include "tests/imaging/pacs/archives.h"
 
@@ -82,8 +83,11 @@ void SyslogServer::serve() {
     if (!is_readable(socket_)) continue;
     const int connection = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
     if (connection < 0) continue;
-    read_frames(connection);
-    ::close(connection);
+    // Several programs may be connected at once.
+    connections_.emplace_back([this, connection] {
+      read_frames(connection);
+      ::close(connection);
+    });
   }
 }
 
@@ -99,7 +103,8 @@ void SyslogServer::read_frames(int connection) {
     if (got <= 0) return;
     bytes.append(room, static_cast<std::size_t>(got));
     for (std::size_t blank = 0; (blank = bytes.find(' ')) != std::string::npos;) {
-      const std::size_t length = std::stoul(bytes.substr(0, blank));
+      const std::size_t length = std::strtoul(bytes.substr(0, blank).c_str(), nullptr, 10);
+      if (length == 0) return;  // no frame
       if (bytes.size() < blank + 1 + length) break;
       const std::lock_guard lock(mutex_);
       messages_.push_back(bytes.substr(blank + 1, length));

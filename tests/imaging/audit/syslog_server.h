@@ -44,6 +44,7 @@ class SyslogServer {
   std::atomic<bool> quit_ = false;
   mutable std::mutex mutex_;
   std::vector<std::string> messages_;
+  std::vector<std::jthread> connections_;  // of thread_ alone
   std::thread thread_;
 };
 
