@@ -1,36 +1,17 @@
 #include "document/recovery_folder.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <random>
 #include <utility>
+
+#include "core/user_folders.h"
 
 namespace tidemark::document {
 namespace {
 
 std::filesystem::path lock_file(const std::filesystem::path& folder, const std::string& id) {
   return folder / (id + ".lock");
-}
-
-Status make_private_folder(const std::filesystem::path& folder) {
-  const auto refuse = [&](const char* why) {
-    return fail(ErrorKind::write, "{}: cannot be used for recovery: {}", folder.string(), why);
-  };
-  std::error_code error;
-  if (folder.has_parent_path()) std::filesystem::create_directories(folder.parent_path(), error);
-  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) return refuse(std::strerror(errno));
-  struct stat found {};
-  if (::lstat(folder.c_str(), &found) != 0) return refuse(std::strerror(errno));
-  if (!S_ISDIR(found.st_mode)) return refuse("not a folder");
-  if (found.st_uid != ::geteuid()) return refuse("it is somebody else's");
-  if ((found.st_mode & 0777U) != 0700U && ::chmod(folder.c_str(), 0700) != 0)
-    return refuse(std::strerror(errno));
-  return {};
 }
 
 }  // namespace

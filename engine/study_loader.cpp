@@ -42,6 +42,7 @@ Result<LoadedStudy> load_study(const imaging::ChosenSeries& chosen, const Progre
   study.frame_of_reference_uid = series.frame_of_reference_uid;
   study.oriented = series.oriented;
   study.patient = series.patient;
+  study.audited = imaging::audited_study(series);
   study.date = series.date;
   study.archive = series.archive;
   study.origin.name = study.name.toStdString();

@@ -13,6 +13,7 @@
 #include "document/origin.h"
 #include "engine/job_runner.h"
 #include "engine/source_summary.h"
+#include "imaging/audit/event.h"
 #include "imaging/dicom/slice_number.h"
 #include "imaging/patient.h"
 #include "imaging/series.h"
@@ -37,6 +38,7 @@ struct LoadedStudy {
   std::string frame_of_reference_uid;  // empty where it is not known
   bool oriented = true;                // the files say how the axes lie in the patient
   imaging::Patient patient;
+  imaging::AuditedStudy audited;  // the same patient and study, for audit messages
   std::string date;               // of the study: "2004-07-31"; empty when unknown
   solver::Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
   std::optional<PhantomStart> start;

@@ -345,9 +345,22 @@ std::vector<fs::path> dicom_files_of(const Series& series) {
   return is_volume_file(series) ? std::vector<fs::path>() : series.files;
 }
 
+AuditedStudy audited_study(const Series& series) {
+  if (is_volume_file(series)) return {};
+  AuditedStudy study{series.patient.id, series.patient.name, series.study_uid, {}};
+  if (!series.sop_class_uid.empty())
+    study.objects[series.sop_class_uid] = static_cast<std::int64_t>(series.files.size());
+  return study;
+}
+
 Result<Volume> load_series(const Series& series, const Progress& progress) {
   TIDEMARK_TRY(require_loadable(series));
-  return guarded(series.files.front(), [&] { return load_chosen(series, progress); });
+  auto volume = guarded(series.files.front(), [&] { return load_chosen(series, progress); });
+  if (AuditedStudy study = audited_study(series); study.is_known()) {
+    const std::string failure = volume ? std::string() : volume.error().message;
+    record_audit({.kind = AuditEvent::Kind::accessed, .study = std::move(study), .failure = failure});
+  }
+  return volume;
 }
 
 Result<Volume> load_series(const ChosenSeries& chosen, const Progress& progress) {

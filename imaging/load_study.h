@@ -8,6 +8,7 @@
 
 #include "core/progress.h"
 #include "core/volume.h"
+#include "imaging/audit/event.h"
 #include "imaging/series.h"
 
 namespace tidemark::imaging {
@@ -60,7 +61,11 @@ Result<LoadedSeries> load_with_series(const std::filesystem::path& path, const s
 // The series' files in slice order when it is a DICOM series; none of a volume file.
 [[nodiscard]] std::vector<std::filesystem::path> dicom_files_of(const Series& series);
 
-// The same of a loadable series that find_series() gave.
+// Whose images they are, for audit messages; nobody's of a volume file.
+[[nodiscard]] AuditedStudy audited_study(const Series& series);
+
+// The same of a loadable series that find_series() gave. Audited (AuditEvent::Kind::accessed) where it is
+// DICOM.
 Result<Volume> load_series(const Series& series, const Progress& progress = {});
 // The remarks come first in Volume::changes.
 Result<Volume> load_series(const ChosenSeries& chosen, const Progress& progress = {});

@@ -7,7 +7,8 @@ namespace tidemark::imaging {
 
 // In UTF-8; absent attributes stay empty. Views show it in their corners, cases and panels at their
 // heads, and the list of series shows the name. A report that the user asks for names the patient while the
-// views do. It goes nowhere else: no log, title, statistics, recipe or session holds it.
+// views do, and audit messages name it where a site has asked for them. It goes nowhere else: no log, title,
+// statistics, recipe or session holds it.
 struct Patient {
   std::string name;  // in the original script, the Latin one behind it: "山田 太郎 (Yamada, Tarou)"
   std::string id;

@@ -35,6 +35,8 @@ struct Series {
   std::string description;                   // DICOM (0008,103E), else the file name
   std::string date;                          // of the study: "2004-07-31"; empty when unknown
   Patient patient;                           // of the first image; empty for volume files
+  std::string study_uid;                     // DICOM (0020,000D), of the first image; empty for volume files
+  std::string sop_class_uid;                 // DICOM (0008,0016), of the first image; empty for volume files
   std::vector<std::filesystem::path> files;  // each once, in slice order when loadable
   std::vector<SliceSource> sources;          // of each slice, in slice order when loadable; DICOM only
   std::vector<SliceNumber> numbers;          // of the same slices

@@ -3,6 +3,7 @@
 
 #include "app/cli/ai_commands.h"
 #include "app/cli/arguments.h"
+#include "app/cli/audit.h"
 #include "app/cli/outputs.h"
 #include "app/cli/study_input.h"
 #include "imaging/ai/ai_services.h"
@@ -87,8 +88,9 @@ Status run(Program& program, const AiSegmentOptions& options) {
   if (!loaded) return pass_on(loaded);
   auto model = find_model(*server, options, console);
   if (!model) return pass_on(model);
-  auto answer = imaging::ai_segment(*server, loaded->volume, {*model, options.label, std::move(*clicks)},
-                                    console.progress());
+  auto answer =
+      imaging::ai_segment(*server, loaded->volume,
+                          {*model, options.label, std::move(*clicks), audited_studies()}, console.progress());
   if (!answer) return pass_on(answer);
   console.say("Sent to    {}", describe(*server));
   const std::int64_t inside = imaging::mask_of(*answer).count();

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <system_error>
 
+#include "app/cli/audit.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
 
@@ -167,11 +168,13 @@ Status Outputs::stage(const std::filesystem::path& file,
 }
 
 Status Outputs::commit() {
+  Status committed;
   for (AtomicFile& staged : staged_) {
-    TIDEMARK_TRY(staged.commit());
+    committed = staged.commit();
+    if (!committed) break;
   }
-  staged_.clear();
-  return {};
+  if (committed) staged_.clear();
+  return exported(std::move(committed), files_);
 }
 
 }  // namespace tidemark::cli

@@ -146,7 +146,13 @@ Status run_send(Program& program, const SendOptions& options) {
   if (!options.deidentify) return send_all(*chosen, *files, nullptr, program.console);
   const auto copies = make_copies(*files, program.console);
   if (!copies) return pass_on(copies);
-  return send_all(*chosen, copies->files, &*copies, program.console);
+  const Status sent = send_all(*chosen, copies->files, &*copies, program.console);
+  imaging::record_audit({.kind = imaging::AuditEvent::Kind::exported,
+                         .failure = imaging::failure_of(sent),
+                         .peer = imaging::audited_peer(chosen->server),
+                         .is_deidentified = true},
+                        copies->made.studies);
+  return sent;
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "app/cli/audit.h"
 #include "app/cli/interrupt.h"
 #include "core/out_of_memory.h"
+#include "core/without_exceptions.h"
 
 namespace tidemark::cli {
 namespace {
@@ -133,7 +135,11 @@ int run_unguarded(int argc, char** argv, Program& program) {
   } catch (const CLI::ParseError& error) {
     return answer_parser(app, program, error);
   }
-  return program.console.finish(program.chosen());
+  const auto audit = CommandAudit::begin(program.console);
+  if (!audit) return program.console.finish(tl::unexpected<Error>(audit.error()));
+  const Status done = without_exceptions(program.chosen);
+  if (*audit) (*audit)->finish(program.console);
+  return program.console.finish(done);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QLocale>
+#include <QMessageBox>
 #include <QTextStream>
 #include <algorithm>
 #include <clocale>
@@ -9,11 +10,13 @@
 #include <future>
 #include <optional>
 
+#include "app/desktop/audit.h"
 #include "app/desktop/diagnostics.h"
 #include "app/desktop/glx_fallback.h"
 #include "core/result.h"
 #include "core/without_exceptions.h"
 #include "engine/engine.h"
+#include "engine/message_text.h"
 #include "solver/host/page_kernel.h"
 #include "solver/trial.h"
 #include "ui/look/icons.h"
@@ -90,6 +93,13 @@ bool can_start(int argc, char** argv) {
   return false;
 }
 
+// Ends the program before it has shown anything.
+int refuse(const Error& error) {
+  std::fprintf(stderr, "tidemark: %s\n", error.message.c_str());
+  QMessageBox::critical(nullptr, QStringLiteral("Tidemark"), engine::message_text(error));
+  return exit_code(error.kind);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -146,8 +156,13 @@ int main(int argc, char** argv) {
   QGuiApplication::setDesktopFileName("tidemark");
   QGuiApplication::setWindowIcon(ui::application_icon());
   ui::apply_theme(application, ui::settings::theme().get());
-  ui::LanguageSwitch desktop(engine);
-  ui::MainWindow& window = desktop.window();
+  std::optional<ui::LanguageSwitch> desktop;
+  desktop::Audit audit([&desktop](const Error& notice) {
+    if (desktop) desktop->window().tell(engine::message_text(notice), "audit");
+  });
+  if (const Status begun = audit.begin(); !begun) return refuse(begun.error());
+  desktop.emplace(engine);
+  ui::MainWindow& window = desktop->window();
   window.session_reader().offer_rescued();
   for (const QString& study : parser.positionalArguments()) window.open(study);
   if (parser.isSet(phantom)) window.open_phantom(parser.value(phantom));

@@ -262,7 +262,8 @@ void Case::warn(const document::Evolution& evolution) {
 
 Status Case::write() {
   const CaseResult result{*source_, phi_, surface_, recipe_, imaging::dicom_files_of(series_), run_.threads};
-  return write_case_files(run_.plan, row_, result, folder_, status_, progress_);
+  return imaging::exported(write_case_files(run_.plan, row_, result, folder_, status_, progress_),
+                           imaging::audited_study(series_), {folder_});
 }
 
 CaseOutcome outcome_of(ErrorKind kind) {

@@ -1,5 +1,6 @@
 #include "imaging/ai/ai_server.h"
 
+#include "core/user_folders.h"
 #include "imaging/web/server_file.h"
 #include "imaging/web/web_address.h"
 
@@ -49,7 +50,7 @@ Result<AiServer> AiConfiguration::server(const std::string& name) const {
 }
 
 std::filesystem::path ai_configuration_file() {
-  return server_file_to_read(own_server_file(kAiFile), kAiFile);
+  return server_file_to_read(user_configuration_file(kAiFile), kAiFile);
 }
 
 Result<AiConfiguration> read_ai_configuration(const std::filesystem::path& file) {

@@ -6,6 +6,7 @@
 #include "core/json/json_field.h"
 #include "imaging/ai/ai_protocol.h"
 #include "imaging/web/clean_text.h"
+#include "imaging/web/web_address.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -109,6 +110,12 @@ Result<AiAnswer> ai_segment(const AiServer& server, const Volume& volume, const 
   const auto conversation = open(server, progress.stop);
   if (!conversation) return pass_on(conversation);
   auto values = conversation->protocol->segment(volume, request, progress);
+  const std::string& url = server.access.url;
+  record_audit({.kind = AuditEvent::Kind::exported,
+                .failure = values ? std::string() : failure_of(pass_on(values)),
+                .peer = {host_of(url), url, {}, {}},
+                .is_deidentified = true},
+               request.studies);
   if (!values) return pass_on(values);
   AiAnswer answer{volume.geometry, std::move(*values), false, request.model.labels};
   const auto is_probability = check_values(answer, conversation->connection->peer(), request.model.name);

@@ -14,6 +14,7 @@
 #include "core/progress.h"
 #include "core/volume.h"
 #include "imaging/ai/ai_server.h"
+#include "imaging/audit/event.h"
 #include "imaging/results/segments.h"
 
 namespace tidemark::imaging {
@@ -47,6 +48,7 @@ struct AiRequest {
   AiModel model;
   std::string label;  // to which clicks inside belong; empty: the model's first
   AiClicks clicks;
+  std::vector<AuditedStudy> studies = {};  // that the volume is of, for audit messages: it stays here
 };
 
 // On the volume's grid, in voxel order.

@@ -132,6 +132,11 @@ Result<Deidentified> write_deidentified(const std::vector<fs::path>& files, cons
     if (committed) written.push_back(records[i].second);
   }
   if (committed) committed = result->folder.commit();
+  record_audit({.kind = AuditEvent::Kind::exported,
+                .failure = failure_of(committed),
+                .files = {fs::absolute(places.folder)},
+                .is_deidentified = true},
+               result->studies);
   if (committed) return result;
   std::error_code ignored;
   for (const fs::path& file : written) fs::remove(file, ignored);

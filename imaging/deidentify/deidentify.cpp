@@ -16,6 +16,7 @@
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/element_text.h"
 #include "imaging/dicom/parsed_dicom.h"
+#include "imaging/dicom/read_patient.h"
 #include "imaging/dicom/write_dicom_file.h"
 #include "imaging/guard/guarded.h"
 
@@ -146,6 +147,7 @@ Status Run::write(ParsedDicom parsed, DeidentifiedFile written) {
   written.name = *name;
   const std::unique_ptr<DcmFileFormat> whole = parsed.take();
   std::unique_ptr<DcmDataset> dataset(whole->getAndRemoveDataset());
+  const AuditedStudy study = read_audited_study(*dataset);
   if (Status clean = cleaner_.clean(*dataset); !clean) {
     return fail(clean.error().kind, "{}: {}", written.source.string(), clean.error().message);
   }
@@ -155,6 +157,7 @@ Status Run::write(ParsedDicom parsed, DeidentifiedFile written) {
   DcmFileFormat object(dataset.release(), kNoCopy);
   TIDEMARK_TRY(write_dicom_file(object, syntax, result_.folder.temporary_path() / written.name));
   result_.files.push_back(std::move(written));
+  add_study(result_.studies, study);
   return {};
 }
 
@@ -164,7 +167,7 @@ Result<Deidentified> deidentify_all(const std::vector<fs::path>& files, const fs
   TIDEMARK_TRY(set_up_dicom());
   auto whole = AtomicFolder::create(folder);
   if (!whole) return pass_on(whole);
-  Deidentified result{std::move(*whole), {}, {}, {}, {}, 0, {}, {}};
+  Deidentified result{std::move(*whole), {}, {}, {}, {}, 0, {}, {}, {}};
   const SyncLater later;
   Run run(options, result);
   for (std::size_t i = 0; i < files.size(); ++i) {

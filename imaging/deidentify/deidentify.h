@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "imaging/audit/event.h"
 #include "imaging/deidentify/changes.h"
 #include "imaging/deidentify/options.h"
 #include "imaging/deidentify/pseudonyms.h"
@@ -44,6 +45,7 @@ struct Deidentified {
   // What undoes it: old to new.
   std::map<std::string, std::string> uids;
   std::map<std::string, Pseudonym> patients;
+  std::vector<AuditedStudy> studies;  // that the copies were made of, under their own names
 };
 
 // Writes the files, each in the encoding that it has (a deflated one inflated), into a new folder that takes

@@ -144,6 +144,7 @@ ImageResult<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file,
   SliceHeader header;
   header.file = file;
   AttributeReader in(dataset, header.problem);
+  header.study_uid = in.name(DCM_StudyInstanceUID);
   header.series_uid = in.name(DCM_SeriesInstanceUID);
   header.frame_of_reference_uid = in.name(DCM_FrameOfReferenceUID);
   header.sop_class_uid = in.name(DCM_SOPClassUID);

@@ -76,4 +76,11 @@ Patient read_patient(DcmItem& dataset, const std::string& study_date) {
   return {name(dataset), patient_text(dataset, DCM_PatientID), sex(dataset), age(dataset, study_date)};
 }
 
+AuditedStudy read_audited_study(DcmItem& dataset) {
+  return {patient_text(dataset, DCM_PatientID),
+          name(dataset),
+          element_text(dataset, DCM_StudyInstanceUID),
+          {{element_text(dataset, DCM_SOPClassUID), 1}}};
+}
+
 }  // namespace tidemark::imaging

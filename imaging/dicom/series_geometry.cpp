@@ -275,6 +275,8 @@ void describe(const Slices& slices, Series& series) {
   series.modality = first.modality;
   series.date = first.date;
   series.patient = first.patient;
+  series.study_uid = first.study_uid;
+  series.sop_class_uid = first.sop_class_uid;
   series.description = first.description.empty() ? first.file.filename().string() : first.description;
   series.frame_of_reference_uid = first.frame_of_reference_uid;
   if (const auto other = all_that(slices,

@@ -42,6 +42,7 @@ struct SliceHeader {
   // The reason why the image cannot be a slice, one line without the file's name; empty when it can.
   std::string problem;
 
+  std::string study_uid;               // (0020,000D)
   std::string series_uid;              // (0020,000E)
   std::string frame_of_reference_uid;  // (0020,0052)
   std::string sop_class_uid;           // (0008,0016)

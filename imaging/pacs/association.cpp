@@ -13,7 +13,7 @@
 #include "core/progress.h"
 #include "core/stopwatch.h"
 #include "imaging/dicom/dicom_setup.h"
-#include "imaging/pacs/name_resolution.h"
+#include "imaging/web/name_resolution.h"
 #include "imaging/pacs/transport.h"
 
 namespace tidemark::imaging {

@@ -4,6 +4,7 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "imaging/dicom/dicom_setup.h"
+#include "imaging/dicom/read_patient.h"
 #include "imaging/guard/guarded.h"
 #include "imaging/pacs/storage_classes.h"
 
@@ -26,6 +27,7 @@ Result<ObjectIdentity> identity_of(const ParsedDicom& object, const fs::path& fi
   identity.sop_instance = text(DCM_SOPInstanceUID);
   identity.study = text(DCM_StudyInstanceUID);
   identity.series = text(DCM_SeriesInstanceUID);
+  identity.audited = read_audited_study(dataset);
   identity.transfer_syntax = DcmXfer(dataset.getOriginalXfer()).getXferID();
   for (const auto& [name, value] : {std::pair{"SOPClassUID (0008,0016)", &identity.sop_class},
                                     {"SOPInstanceUID (0008,0018)", &identity.sop_instance},

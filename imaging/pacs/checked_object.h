@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/result.h"
+#include "imaging/audit/event.h"
 #include "imaging/dicom/parsed_dicom.h"
 
 namespace tidemark::imaging {
@@ -16,6 +17,7 @@ struct ObjectIdentity {
   std::string study;   // Study Instance UID
   std::string series;  // Series Instance UID
   std::string transfer_syntax;
+  AuditedStudy audited;  // this object alone
 
   bool operator==(const ObjectIdentity&) const = default;
 };

@@ -7,7 +7,9 @@
 #include "core/json/json.h"
 #include "core/json/json_field.h"
 #include "core/json/json_text.h"
+#include "core/user_folders.h"
 #include "imaging/web/server_file.h"
+#include "imaging/web/web_address.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -22,13 +24,6 @@ bool is_ae_title(const std::string& title) {
   const auto allowed = [](char c) { return c >= 0x20 && c < 0x7f && c != '\\'; };
   return !title.empty() && title.size() <= 16 && title.front() != ' ' && title.back() != ' ' &&
          std::all_of(title.begin(), title.end(), allowed);
-}
-
-bool is_host(const std::string& host) {
-  const auto allowed = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_';
-  };
-  return !host.empty() && host.size() <= 253 && std::all_of(host.begin(), host.end(), allowed);
 }
 
 ServerFault fault_of_dicom(const PacsServer& server) {
@@ -144,8 +139,13 @@ Status check_pacs_server(const PacsServer& server) {
   return fail(ErrorKind::input, "PACS server {}: {}: {}", server.name, fault.field, fault.reason);
 }
 
+AuditedPeer audited_peer(const PacsServer& server) {
+  if (!server.web) return {server.host, {}, server.ae_title, server.own_ae_title};
+  return {host_of(server.web->url), server.web->url, {}, {}};
+}
+
 fs::path pacs_configuration_file() {
-  return own_server_file(kFile);
+  return user_configuration_file(kFile);
 }
 
 fs::path pacs_configuration_to_read(const fs::path& own) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "imaging/audit/event.h"
 #include "imaging/web/web_server.h"
 
 namespace tidemark::imaging {
@@ -55,7 +56,7 @@ struct PacsConfiguration {
   [[nodiscard]] Result<PacsServer> server(const std::string& name) const;
 };
 
-// $XDG_CONFIG_HOME/tidemark/pacs.json, else ~/.config/tidemark/pacs.json.
+// pacs.json of user_configuration_file().
 [[nodiscard]] std::filesystem::path pacs_configuration_file();
 
 // Which of both to read: `own` where it is there, else the site's, pacs.json in site_folder(), where that is.
@@ -70,6 +71,9 @@ Result<PacsConfiguration> read_chosen_pacs_configuration(const std::filesystem::
 
 // Makes the folder where it is missing. Fails (ErrorKind::write).
 Status write_pacs_configuration(const PacsConfiguration& configuration, const std::filesystem::path& file);
+
+// The server as the other side of what is audited.
+[[nodiscard]] AuditedPeer audited_peer(const PacsServer& server);
 
 // Whether a conversation can be tried at all. Fails (ErrorKind::input) naming the field.
 Status check_pacs_server(const PacsServer& server);

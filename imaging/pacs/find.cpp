@@ -1,4 +1,5 @@
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcostrmb.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmnet/dimse.h>
 
@@ -30,6 +31,18 @@ class Question {
   DcmDataset& dataset() {
     if (!is_ascii_) dataset_.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 192");
     return dataset_;
+  }
+  // In explicit little endian.
+  std::string bytes() {
+    constexpr auto kSyntax = EXS_LittleEndianExplicit;
+    constexpr auto kLengths = EET_ExplicitLength;
+    DcmDataset& whole = dataset();
+    std::string bytes(whole.getLength(kSyntax, kLengths), '\0');
+    DcmOutputBufferStream stream(bytes.data(), static_cast<offile_off_t>(bytes.size()));
+    whole.transferInit();
+    const bool is_written = whole.write(stream, kSyntax, kLengths, nullptr).good();
+    whole.transferEnd();
+    return is_written ? bytes : std::string();
   }
 
  private:
@@ -159,6 +172,18 @@ struct Query {
   QueryKeys keys;
 };
 
+void audit(const PacsServer& server, const Query& query, std::int64_t most, const Result<bool>& asked) {
+  AuditEvent event{.kind = AuditEvent::Kind::queried, .peer = audited_peer(server)};
+  if (!asked) event.failure = asked.error().message;
+  if (server.web) {
+    event.query = question(query.resource, query.keys, most + 1);
+  } else {
+    event.query = Question(query.level, query.keys).bytes();
+    event.query_class = UID_FINDStudyRootQueryRetrieveInformationModel;
+  }
+  record_audit(event);
+}
+
 template <class Entry, class Read>
 Result<Found<Entry>> collect(const PacsServer& server, const Query& query, const PacsLimits& limits,
                              const Progress& progress, const Read& read) {
@@ -173,6 +198,7 @@ Result<Found<Entry>> collect(const PacsServer& server, const Query& query, const
   const auto more = server.web
                         ? ask_by_web(server, query.resource, query.keys, limits.answers, take, progress)
                         : ask(server, Question(query.level, query.keys), take, progress);
+  audit(server, query, limits.answers, more);
   if (!more) return pass_on(more);
   found.more = *more;
   return found;

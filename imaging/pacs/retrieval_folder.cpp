@@ -71,9 +71,9 @@ Status RetrievalFolder::grown(std::int64_t bytes) {
   return check_free_space();
 }
 
-Result<std::string> RetrievalFolder::look_into(const fs::path& object,
-                                               const std::optional<Announced>& announced) const {
-  const auto identity = check_object(object);
+Result<ObjectIdentity> RetrievalFolder::look_into(const fs::path& object,
+                                                  const std::optional<Announced>& announced) const {
+  auto identity = check_object(object);
   // Without the file's name, which is only a number.
   if (!identity) return fail(ErrorKind::input, "{}", without_path(identity.error().message, object));
   if (!is_storage_class(identity->sop_class)) {
@@ -87,22 +87,23 @@ Result<std::string> RetrievalFolder::look_into(const fs::path& object,
   if (!request_.series_uid.empty() && identity->series != request_.series_uid) {
     return fail(ErrorKind::input, "belongs to another series");
   }
-  return identity->sop_instance;
+  return identity;
 }
 
 bool RetrievalFolder::take(const fs::path& object, const std::optional<Announced>& announced) {
-  auto instance = look_into(object, announced);
-  if (instance && !sync_to_disk(object)) instance = fail(ErrorKind::write, "cannot be written");
+  auto identity = look_into(object, announced);
+  if (identity && !sync_to_disk(object)) identity = fail(ErrorKind::write, "cannot be written");
   const std::lock_guard lock(mutex_);
-  if (!instance) {
-    note_refusal(object, instance.error().message);
+  if (!identity) {
+    note_refusal(object, identity.error().message);
     return false;
   }
-  if (!instances_.insert(*instance).second) {
+  if (!instances_.insert(identity->sop_instance).second) {
     note_refusal(object, "came a second time");
     return true;  // the server may believe that it is here: it is
   }
   unfinished_.erase(object);
+  add_study(retrieved_.studies, identity->audited);
   retrieved_.files.push_back(request_.folder / object.filename());
   const auto done = static_cast<double>(retrieved_.files.size());
   progress_(expected_ > 0 ? std::min(1.0, done / static_cast<double>(expected_)) : -1.0, "receiving objects");

@@ -14,6 +14,7 @@
 #include "core/atomic_file.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "imaging/pacs/checked_object.h"
 #include "imaging/pacs/services.h"
 #include "imaging/web/connection_watch.h"
 
@@ -58,9 +59,8 @@ class RetrievalFolder {
                   AtomicFolder collected)
       : request_(request), limits_(limits), progress_(progress), collected_(std::move(collected)) {}
   Status check_free_space() const;
-  // Returns its SOP Instance UID.
-  Result<std::string> look_into(const std::filesystem::path& object,
-                                const std::optional<Announced>& announced) const;
+  Result<ObjectIdentity> look_into(const std::filesystem::path& object,
+                                   const std::optional<Announced>& announced) const;
   void note_refusal(const std::filesystem::path& object, std::string reason);
 
   const RetrieveRequest request_;

@@ -57,6 +57,21 @@ Result<Retrieved> retrieve_into_folder(const PacsServer& server, const RetrieveR
   return (*retrieval_folder)->keep(*missing);
 }
 
+// What came, and what did not: each by itself, as DICOM PS3.15 A.5.2 wants it.
+void audit(const PacsServer& server, const RetrieveRequest& request, const Result<Retrieved>& retrieved) {
+  AuditEvent event{.kind = AuditEvent::Kind::received, .peer = audited_peer(server)};
+  if (!retrieved && retrieved.error().kind == ErrorKind::usage) return;  // nobody was asked
+  if (retrieved) {
+    record_audit(event, retrieved->studies);
+    if (retrieved->missing == 0 && retrieved->refused.empty()) return;
+  }
+  event.failure = retrieved ? fmt::format("{} objects could not be sent by the server, {} were not taken",
+                                          retrieved->missing, retrieved->refused.size())
+                            : retrieved.error().message;
+  event.study.study_uid = request.study_uid;
+  record_audit(event);
+}
+
 }  // namespace
 
 std::unique_ptr<DcmDataset> identifier_of(const RetrieveRequest& request) {
@@ -106,7 +121,10 @@ Result<bool> ResponseReader::read(const T_DIMSE_Message& message) {
 
 Result<Retrieved> retrieve(const PacsServer& server, const RetrieveRequest& request, const PacsLimits& limits,
                            const Progress& progress) {
-  return without_exceptions([&] { return retrieve_into_folder(server, request, limits, progress); });
+  auto retrieved =
+      without_exceptions([&] { return retrieve_into_folder(server, request, limits, progress); });
+  audit(server, request, retrieved);
+  return retrieved;
 }
 
 }  // namespace tidemark::imaging

@@ -139,6 +139,42 @@ Result<std::string> send_one(ObjectSender& sender, const Outgoing& one, std::int
   return reason;
 }
 
+// Sends one after the other, and notes in `went` which the server has taken.
+Status send_outgoing(const PacsServer& server, const std::vector<Outgoing>& outgoing, Sent& sent,
+                     std::vector<bool>& went, const Progress& progress) {
+  const auto sender = server.web ? open_web_sender(server, progress.stop)
+                                 : open_dicom_sender(server, outgoing, progress.stop);
+  if (!sender) return pass_on(sender);
+  for (std::size_t i = 0; i < outgoing.size(); ++i) {
+    if (progress.cancelled()) return cancelled_error();
+    auto reason = send_one(**sender, outgoing[i], sent.bytes);
+    if (!reason) return pass_on(reason);
+    went[i] = reason->empty();
+    if (went[i]) {
+      ++sent.objects;
+    } else {
+      sent.unsent.push_back({outgoing[i].file, std::move(*reason)});
+    }
+    progress(0.2 + 0.8 * static_cast<double>(i + 1) / static_cast<double>(outgoing.size()),
+             "sending objects");
+  }
+  (*sender)->end();
+  return {};
+}
+
+// What went, and what did not: each by itself, as DICOM PS3.15 A.5.2 wants it.
+void audit(const PacsServer& server, const std::vector<Outgoing>& outgoing, const Sent& sent,
+           const std::vector<bool>& went, const Status& done) {
+  std::vector<AuditedStudy> gone, kept;
+  for (std::size_t i = 0; i < outgoing.size(); ++i) {
+    add_study(went[i] ? gone : kept, outgoing[i].identity.audited);
+  }
+  AuditEvent event{.kind = AuditEvent::Kind::sent, .peer = audited_peer(server)};
+  record_audit(event, gone);
+  event.failure = !done ? done.error().message : sent.unsent.empty() ? "" : sent.unsent.back().reason;
+  record_audit(event, kept);
+}
+
 Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& files,
                       const Progress& progress) {
   TIDEMARK_TRY(set_up_network());
@@ -146,23 +182,10 @@ Result<Sent> send_all(const PacsServer& server, const std::vector<fs::path>& fil
   const auto outgoing = look_into(files, sent, progress);
   if (!outgoing) return pass_on(outgoing);
   if (outgoing->empty()) return sent;
-  const auto sender = server.web ? open_web_sender(server, progress.stop)
-                                 : open_dicom_sender(server, *outgoing, progress.stop);
-  if (!sender) return pass_on(sender);
-  std::size_t done = 0;
-  for (const Outgoing& one : *outgoing) {
-    if (progress.cancelled()) return cancelled_error();
-    auto reason = send_one(**sender, one, sent.bytes);
-    if (!reason) return pass_on(reason);
-    if (reason->empty()) {
-      ++sent.objects;
-    } else {
-      sent.unsent.push_back({one.file, std::move(*reason)});
-    }
-    progress(0.2 + 0.8 * static_cast<double>(++done) / static_cast<double>(outgoing->size()),
-             "sending objects");
-  }
-  (*sender)->end();
+  std::vector<bool> went(outgoing->size());
+  const Status done = send_outgoing(server, *outgoing, sent, went, progress);
+  audit(server, *outgoing, sent, went, done);
+  if (!done) return pass_on(done);
   return sent;
 }
 

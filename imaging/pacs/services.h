@@ -84,8 +84,9 @@ struct RetrieveRequest {
 struct Retrieved {
   std::vector<std::filesystem::path> files;
   std::int64_t bytes = 0;
-  std::int64_t missing = 0;          // objects that the server could not send
-  std::vector<std::string> refused;  // the reasons for objects that came and were not taken
+  std::int64_t missing = 0;           // objects that the server could not send
+  std::vector<std::string> refused;   // the reasons for objects that came and were not taken
+  std::vector<AuditedStudy> studies;  // whose the files are
 };
 // Brings a series or a study as the server's `retrieve` says; by move, one at a time for each user and port
 // of this machine. Objects are checked and get names of ours. The folder holds them when all have come; when

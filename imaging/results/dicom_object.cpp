@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "imaging/dicom/dicom_setup.h"
+#include "imaging/dicom/read_patient.h"
 #include "imaging/dicom/write_dicom_file.h"
 #include "imaging/results/results.h"
 
@@ -23,6 +24,15 @@ Result<ParsedDicom> load_object(const fs::path& file, std::optional<DicomTag> st
     dataset.convertToUTF8();
   }
   return parsed;
+}
+
+Result<ParsedDicom> load_result(const fs::path& file) {
+  auto object = load_object(file);
+  if (!object) return object;
+  record_audit({.kind = AuditEvent::Kind::imported,
+                .study = read_audited_study(object->dataset()),
+                .files = {fs::absolute(file)}});
+  return object;
 }
 
 Status save_object(std::unique_ptr<DcmDataset> dataset, E_TransferSyntax syntax, const fs::path& file) {

@@ -22,6 +22,9 @@ namespace tidemark::imaging {
 // Fails with ErrorKind::input.
 Result<ParsedDicom> load_object(const std::filesystem::path& file, std::optional<DicomTag> stop_at = {});
 
+// The same of a whole file with results, whose voxels will be used: audited (AuditEvent::Kind::imported).
+Result<ParsedDicom> load_result(const std::filesystem::path& file);
+
 // Calls visit(item), which returns a Status, for each item of a sequence until one fails; for none where it
 // is absent. Asked for an item by its number, DCMTK would count from the first one each time.
 template <class Visit>

@@ -126,7 +126,7 @@ Result<ParametricMap> read_parametric_map(DcmDataset& dataset, const TransferSyn
 
 Result<Volume> read_parameters(const fs::path& file, float empty) {
   const std::string name = file.string();
-  auto object = load_object(file);
+  auto object = load_result(file);
   if (!object) return pass_on(object);
   const auto map = read_parametric_map(object->dataset(), object->syntax(), name);
   if (!map) return pass_on(map);

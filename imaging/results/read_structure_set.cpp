@@ -206,7 +206,7 @@ void say_what_is_missing(const RegionFiller& filler, const std::string& name, Se
 }
 
 Result<Segments> read(const fs::path& file, const Geometry& grid) {
-  auto object = load_object(file);
+  auto object = load_result(file);
   if (!object) return pass_on(object);
   DcmDataset& dataset = object->dataset();
   if (element_text(dataset, DCM_SOPClassUID) != UID_RTStructureSetStorage) {

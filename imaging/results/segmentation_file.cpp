@@ -82,7 +82,7 @@ Status SegmentationFile::find_pixels(DcmDataset& dataset) {
 }
 
 Status SegmentationFile::load() {
-  auto object = load_object(file_);
+  auto object = load_result(file_);
   if (!object) return pass_on(object);
   object_ = std::move(*object);
   DcmDataset& dataset = object_->dataset();

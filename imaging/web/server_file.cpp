@@ -1,6 +1,5 @@
 #include "imaging/web/server_file.h"
 
-#include <cstdlib>
 #include <fstream>
 #include <system_error>
 
@@ -15,13 +14,6 @@ constexpr std::size_t kLongestAddress = 2048;
 constexpr std::size_t kLongestUser = 253;
 
 }  // namespace
-
-fs::path own_server_file(const char* name) {
-  const char* chosen = std::getenv("XDG_CONFIG_HOME");
-  if (chosen != nullptr && *chosen == '/') return fs::path(chosen) / "tidemark" / name;
-  const char* home = std::getenv("HOME");
-  return fs::path(home != nullptr ? home : "/") / ".config/tidemark" / name;
-}
 
 fs::path server_file_to_read(const fs::path& own, const char* name) {
   std::error_code error;

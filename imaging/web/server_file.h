@@ -10,8 +10,6 @@
 
 namespace tidemark::imaging {
 
-// $XDG_CONFIG_HOME/tidemark/NAME, else ~/.config/tidemark/NAME.
-[[nodiscard]] std::filesystem::path own_server_file(const char* name);
 // Which of both to read: `own` where it is there, else the site's of that name in site_folder(), where that
 // is.
 [[nodiscard]] std::filesystem::path server_file_to_read(const std::filesystem::path& own, const char* name);

@@ -46,6 +46,10 @@ std::string fault_of_address(const std::string& url) {
   return url.ends_with('/') ? "ends with a slash" : "";
 }
 
+std::string host_of(const std::string& url) {
+  return Address(url).part(CURLUPART_HOST);
+}
+
 bool is_encrypted(const std::string& url) {
   return Address(url).part(CURLUPART_SCHEME) == "https";
 }

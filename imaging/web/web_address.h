@@ -8,6 +8,8 @@ namespace tidemark::imaging {
 // What is wrong with it; empty: nothing.
 [[nodiscard]] std::string fault_of_address(const std::string& url);
 
+// "pacs.example"
+[[nodiscard]] std::string host_of(const std::string& url);
 // By TLS.
 [[nodiscard]] bool is_encrypted(const std::string& url);
 // What goes there leaves this machine in no way.

@@ -32,6 +32,11 @@ struct WebServer {
   int timeout_seconds = 30;  // how long it may take to answer, and to send its next 64 KiB
 };
 
+// Empty: none.
+[[nodiscard]] std::string fault_of(const TlsFiles& tls);
+// Letters, digits, dots, hyphens and underlines: a host's name, or an IPv4 address.
+[[nodiscard]] bool is_host(const std::string& text);
+
 // The fault of an entry: the field and the reason; an empty field where there is none.
 struct ServerFault {
   const char* field = "";

@@ -9,9 +9,11 @@
 #include "core/without_exceptions.h"
 #include "engine/background_job.h"
 #include "engine/message_text.h"
+#include "imaging/audit/event.h"
 #include "ui/main/main_window.h"
 #include "ui/results/file_name.h"
 #include "ui/settings.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -27,6 +29,14 @@ QString with_suffix(const QString& file, const QString& filter) {
     if (first.isEmpty()) first = ending;
   }
   return file + first;
+}
+
+// The work, which writes a file of a study.
+CaseFiles::Work audited(const std::shared_ptr<const engine::LoadedStudy>& study, const QString& file,
+                        CaseFiles::Work work) {
+  return [study, path = path_of(file), work = std::move(work)] {
+    return imaging::exported(without_exceptions(work), study->audited, {path});
+  };
 }
 
 // For messages: the same case to a file of the same kind.
@@ -62,21 +72,23 @@ QString CaseFiles::ask_for_file(CaseWindow& window, const QString& title, const 
 }
 
 void CaseFiles::write(const CaseWindow& window, const QString& file, Work work, std::function<void()> done) {
-  run(about_writing(window, file), file, std::move(work), std::move(done));
+  run(about_writing(window, file), file, audited(window.proxy().shared_study(), file, std::move(work)),
+      std::move(done));
 }
 
 void CaseFiles::write_contents(CaseWindow& window, const QString& file,
                                std::function<Status(const document::SessionContents&)> work) {
   window.proxy().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
+                                                     study = window.proxy().shared_study(),
                                                      work = std::move(work)](const auto& snapshot) {
-    run(about, file, [snapshot, work] { return work(snapshot->contents); }, {});
+    run(about, file, audited(study, file, [snapshot, work] { return work(snapshot->contents); }), {});
   });
 }
 
 void CaseFiles::run(const QString& about, const QString& file, Work work, std::function<void()> done) {
   jobs_.push_back(
       engine::BackgroundJob::start(this, [this, about, file, work = std::move(work), done](auto& job) {
-        const Status status = without_exceptions(work);
+        const Status status = work();
         job.deliver([this, about, file, status, done] {
           if (!status) return window_.tell(engine::message_text(status.error()), about);
           window_.settle(about);

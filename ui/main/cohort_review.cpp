@@ -13,6 +13,7 @@
 #include "document/cohort/correction.h"
 #include "engine/background_job.h"
 #include "engine/message_text.h"
+#include "imaging/audit/event.h"
 #include "ui/cohort/case_opener.h"
 #include "ui/cohort/cohort_model.h"
 #include "ui/cohort/cohort_panel.h"
@@ -368,7 +369,8 @@ void CohortReview::write_correction(const std::shared_ptr<const engine::CaseProx
     const solver::SurfaceStatistics surface = solver::measure(*contents.phi);
     const cohort::CaseResult result{*source, *contents.phi, surface, contents.recipe, study->dicom_files};
     auto made = cohort::correct_case(folder, *plan, entry.row, seen, result, program, progress);
-    if (!made) return pass_on(made);
+    const Status corrected = made ? Status() : Status(tl::unexpected<Error>(made.error()));
+    TIDEMARK_TRY(imaging::exported(corrected, study->audited, {folder.case_folder(entry.row.id)}));
     *status = std::move(*made);
     return cohort::decide(folder, entry.decision, decision);
   };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/film.h"
+#include "imaging/audit/event.h"
 #include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
 #include "ui/opening/loading_view.h"
@@ -56,12 +57,14 @@ void FilmWriter::write(CaseWindow& window, const QString& file) {
   const auto size = size_of_film(view->size());
   window.proxy().take_snapshot(
       window.view_state(), [this, file, size, wanted = view->wanted(),
-                            volume = window.proxy().study().volume](const auto& snapshot) {
+                            study = window.proxy().shared_study()](const auto& snapshot) {
         file_ = file;
         progress_->begin(QFileInfo(file).fileName());
         progress_->show();
         jobs_.write([=, path = path_of(file)](const Progress& progress) {
-          return engine::write_film(snapshot->contents.recipe, volume, wanted, size, path, progress);
+          return imaging::exported(
+              engine::write_film(snapshot->contents.recipe, study->volume, wanted, size, path, progress),
+              study->audited, {path});
         });
       });
 }

@@ -197,7 +197,8 @@ void ModelControls::ask() {
   asked_ = proxy();
   of(*asked_).finding.reset();
   begin(tr("Calling the server"));
-  client_.ask(*choice_->server(), asked_->shared_study()->volume, {*choice_->model(), choice_->label(), {}},
+  const auto study = asked_->shared_study();
+  client_.ask(*choice_->server(), study->volume, {*choice_->model(), choice_->label(), {}, {study->audited}},
               asked_->drive().strokes);
   refresh();
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "document/segment_meshes.h"
+#include "imaging/audit/event.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/results/file_name.h"
@@ -176,9 +177,12 @@ bool WriteResultDialog::confirm() {
 
 void WriteResultDialog::begin(const Snapshot& snapshot) {
   settings::save_folder().set(QFileInfo(file_->text()).absolutePath());
-  jobs_.write([snapshot, kind = kind_, what = content(), source = proxy().study().dicom_files,
-               file = path_of(file_->text())](const Progress& progress) {
-    return write_kind(snapshot->contents, kind, what, source, file, progress);
+  std::vector<std::filesystem::path> written_files;
+  for (const QString& file : files()) written_files.push_back(path_of(file));
+  jobs_.write([snapshot, kind = kind_, what = content(), study = proxy().shared_study(),
+               file = path_of(file_->text()), written_files](const Progress& progress) {
+    return imaging::exported(write_kind(snapshot->contents, kind, what, study->dicom_files, file, progress),
+                             study->audited, written_files);
   });
 }
 

@@ -58,6 +58,8 @@ Result<std::string> text_from(HttpConnection& connection, const std::string& res
   return ask_for_json(connection, {resource, kDicomJson, static_cast<std::int64_t>(kMostBytes)});
 }
 
+}  // namespace
+
 std::string question(const std::string& resource, const QueryKeys& keys, std::int64_t limit) {
   std::string all = fmt::format("{}?limit={}", resource, limit);
   for (const auto& [key, value] : keys) {
@@ -65,8 +67,6 @@ std::string question(const std::string& resource, const QueryKeys& keys, std::in
   }
   return all;
 }
-
-}  // namespace
 
 Result<double> echo_by_web(const PacsServer& server, const Progress& progress) {
   progress(0.0, "calling the server");

@@ -21,6 +21,9 @@ Result<std::unique_ptr<HttpConnection>> open_web(const PacsServer& server, const
 
 Result<double> echo_by_web(const PacsServer& server, const Progress& progress);
 
+// The request of ask_by_web(): "studies?limit=11&00100020=4711".
+[[nodiscard]] std::string question(const std::string& resource, const QueryKeys& keys, std::int64_t limit);
+
 // Asks for studies, or for the series of one, and takes answer by answer. True when the server has more
 // answers than `most`, or than were taken.
 Result<bool> ask_by_web(const PacsServer& server, const std::string& resource, const QueryKeys& keys,

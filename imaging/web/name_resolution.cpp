@@ -1,4 +1,4 @@
-#include "imaging/pacs/name_resolution.h"
+#include "imaging/web/name_resolution.h"
 
 #include <arpa/inet.h>
 #include <netdb.h>
