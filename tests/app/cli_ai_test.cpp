@@ -3,6 +3,7 @@
 #include <QTest>
 
 #include "imaging/files/volume_file.h"
+#include "imaging/load_study.h"
 #include "tests/app/cli_runner.h"
 #include "tests/imaging/ai/model_server.h"
 #include "tests/support/support.h"
@@ -88,7 +89,7 @@ class CliAiTest : public QObject {
     QCOMPARE(json_of(soft.out)["form"].toString(), QString("probability"));
     const Outcome segment =
         run_cli({"segment", site.file("balls.nii.gz"), "--speed", "image", "--speed-image",
-                 site.file("soft.nrrd"), "--alpha", "0.1", "--seed",
+                 site.file("soft.nrrd"), "--alpha", "0.9", "--seed",
                  QStringLiteral("%1,%2,%3,3").arg(kDimBall.x).arg(kDimBall.y).arg(kDimBall.z), "--out",
                  site.file("mask.nii.gz")});
     QVERIFY2(segment.code == 0, segment.told());

@@ -140,7 +140,7 @@ class ModelServerStoryTest : public QObject {
     QVERIFY(Desktop::wait_for([&] { return balls_->proxy().state().begun; }, kPatience));
     desktop_->wait_until_idle();
     QVERIFY(!sphere_->proxy().state().begun);
-    QVERIFY(std::abs(balls_->proxy().state().statistics->volume_ml - 5.2) < 0.4);  // both are as bright
+    QVERIFY(std::abs(balls_->proxy().state().surface.volume_ml - 5.2) < 0.4);  // both are as bright
     desktop_->window().actions().undo->trigger();
     desktop_->wait_until_idle();
     QVERIFY(!balls_->proxy().state().begun);
@@ -195,7 +195,7 @@ class ModelServerStoryTest : public QObject {
     balls_->proxy().play_for(400, true, [&](bool) { rests = true; });
     QVERIFY(Desktop::wait_for([&] { return rests; }, kPatience));
     // A ball of 9 mm, smoothed a little.
-    const double ml = balls_->proxy().state().statistics->volume_ml;
+    const double ml = balls_->proxy().state().surface.volume_ml;
     QVERIFY2(ml > 2.4 && ml < 3.4, qPrintable(QString::number(ml)));
   }
 
