@@ -107,16 +107,6 @@ class CliAuditTest : public QObject {
     QCOMPARE(patient_in(of_convert[2]), QString("P-7"));
   }
 
-  void a_study_that_cannot_be_loaded_and_a_file_that_cannot_be_written_are_failures() {
-    AuditedUser user;
-    const auto input = study(user / "study", "P-8", "1.2.8");
-    truncate(input / std::filesystem::directory_iterator(input)->path().filename(), 600);
-    static_cast<void>(user.run({"convert", text(input), "--out", text(user / "x.nrrd")}));
-    for (const std::string& message : user.messages()) {
-      if (codes_in({message}) == "110103") QCOMPARE(outcome_in(message), QString("4"));
-    }
-  }
-
   void files_without_a_patient_are_nobody_s() {
     AuditedUser user;
     QCOMPARE(user.run({"phantom", "sphere", "--out", text(user / "sphere")}).code, 0);
@@ -193,6 +183,27 @@ class CliAuditTest : public QObject {
     QCOMPARE(patient_in(messages[2]), QString("P-9"));
     QCOMPARE(study_in(messages[2]).one("ParticipantObjectDescription").one("Anonymized").text,
              QString("true"));
+  }
+
+  // Each case is computed in a copy of the process.
+  void cases_of_a_cohort_are_opened_and_exported() {
+    AuditedUser user;
+    for (const char* name : {"a", "b"}) {
+      QCOMPARE(user.run({"phantom", "sphere", "--out", text(user / name)}).code, 0);
+      std::filesystem::create_directories(user / "in");
+      std::filesystem::rename(user / name / "series", user / "in" / name);
+    }
+    QCOMPARE(
+        user.run({"cohort", "plan", text(user / "in"), "--out", text(user / "cohort"), "--auto-start"}).code,
+        0);
+    user.messages();
+    const Outcome outcome = user.run({"cohort", "run", text(user / "cohort")});
+    QVERIFY2(outcome.code == 0, outcome.told());
+    const auto messages = user.messages();
+    QStringList codes = codes_in(messages).split(' ');
+    codes.sort();
+    QCOMPARE(codes.join(' '), QString("110100 110100 110103 110103 110106 110106"));
+    for (const std::string& message : messages) QCOMPARE(outcome_in(message), QString("0"));
   }
 
   void nothing_is_written_where_nothing_is_wanted() {

@@ -71,7 +71,7 @@ QString CaseFiles::ask_for_file(CaseWindow& window, const QString& title, const 
   return file;
 }
 
-void CaseFiles::write(const CaseWindow& window, const QString& file, Work work, std::function<void()> done) {
+void CaseFiles::write(CaseWindow& window, const QString& file, Work work, std::function<void()> done) {
   run(about_writing(window, file), file, audited(window.proxy().shared_study(), file, std::move(work)),
       std::move(done));
 }

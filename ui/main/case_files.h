@@ -30,7 +30,7 @@ class CaseFiles : public QObject {
   [[nodiscard]] QString ask_for_file(CaseWindow& window, const QString& title, const QString& suffixes);
 
   using Work = std::function<Status()>;
-  void write(const CaseWindow& window, const QString& file, Work work, std::function<void()> done = {});
+  void write(CaseWindow& window, const QString& file, Work work, std::function<void()> done = {});
   // From what the case is like now.
   void write_contents(CaseWindow& window, const QString& file,
                       std::function<Status(const document::SessionContents&)> work);
