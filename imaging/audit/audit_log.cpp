@@ -60,8 +60,7 @@ Result<std::shared_ptr<AuditLog>> AuditLog::start_if_wanted(const std::string& p
 
 AuditLog::AuditLog(const AuditConfiguration& configuration, const std::string& program, AuditSpool spool,
                    std::unique_ptr<AuditDestination> destination, Tell tell)
-    : where_(configuration.destination()),
-      origin_(AuditOrigin::of_this_process(program)),
+    : origin_(AuditOrigin::of_this_process(program)),
       spool_(std::move(spool)),
       destination_(std::move(destination)),
       tell_(std::move(tell)),
@@ -163,7 +162,7 @@ void AuditLog::note_failure(const Error& error) {
     is_new = !std::exchange(is_told_, true);
   }
   if (!is_new || !tell_) return;
-  tell_({ErrorKind::input, fmt::format("{} audit messages wait for {}: {}", waiting, where_, error.message)});
+  tell_({ErrorKind::input, fmt::format("{} audit messages wait: {}", waiting, error.message)});
 }
 
 AuditLog::Left AuditLog::finish(Milliseconds patience, const std::stop_token& stop) {

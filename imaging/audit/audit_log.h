@@ -55,7 +55,6 @@ class AuditLog final : public AuditSink {
   void note_failure(const Error& error);
   void wake() const;
 
-  const std::string where_;
   AuditOrigin origin_;
   const AuditSpool spool_;
   const std::unique_ptr<AuditDestination> destination_;

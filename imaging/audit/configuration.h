@@ -36,8 +36,6 @@ struct AuditConfiguration {
   std::string site;              // AuditEnterpriseSiteID (DICOM PS3.15 A.5.2); may be empty
   std::string source;            // AuditSourceID; empty: the host's name
   std::size_t waiting = 10'000;  // messages that may wait for the server; more are lost
-
-  [[nodiscard]] std::string destination() const { return server ? server->address() : file.string(); }
 };
 
 // audit.json in site_folder(), else of user_configuration_file(); the site's comes first, so that no user's

@@ -153,7 +153,7 @@ class AuditDeliveryTest : public QObject {
       QVERIFY2(left.reason.find("cannot be called") != std::string::npos, left.reason.c_str());
     }
     QCOMPARE(notices.all().size(), 1);
-    QVERIFY2(notices.all().first().contains("audit messages wait for localhost:"),
+    QVERIFY2(notices.all().first().contains("audit messages wait: audit server localhost:"),
              qPrintable(notices.all().first()));
     const SyslogServer server(SyslogServer::Way::tcp, port);
     const auto log = start(to(away), notices.tell());
