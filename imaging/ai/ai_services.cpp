@@ -117,10 +117,11 @@ Result<AiAnswer> ai_segment(const AiServer& server, const Volume& volume, const 
   return answer;
 }
 
-Result<Segments> segments_of(const AiAnswer& answer, const std::string& name_of_probability) {
-  if (answer.is_probability) return segments_of(mask_of(answer), name_of_probability);
-  auto segments = segments_of_numbers(answer.geometry, answer.values, name_of_probability);
+Result<Segments> segments_of(const AiAnswer& answer, const std::string& name) {
+  if (answer.is_probability) return segments_of(mask_of(answer), name);
+  auto segments = segments_of_numbers(answer.geometry, answer.values, name);
   if (!segments) return segments;
+  if (answer.labels.empty() && segments->list.size() == 1) segments->list.front().name = name;
   for (Segment& segment : segments->list) {
     for (const AiLabel& label : answer.labels) {
       if (segment.name == fmt::format("Segment {}", label.number)) {

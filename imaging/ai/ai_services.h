@@ -62,8 +62,9 @@ struct AiAnswer {
 Result<AiAnswer> ai_segment(const AiServer& server, const Volume& volume, const AiRequest& request,
                             const Progress& progress = {});
 
-// A segment for each label that the answer holds; of a probability one, where it is at least one half.
-Result<Segments> segments_of(const AiAnswer& answer, const std::string& name_of_probability);
+// A segment for each label that the answer holds; of a probability one, where it is at least one half. That
+// one, and a single label of a model without names, gets the name.
+Result<Segments> segments_of(const AiAnswer& answer, const std::string& name);
 
 // As a map that drives a surface: of labels 1 inside of all, or of the one with that number, and 0 outside.
 std::vector<float> map_of(const AiAnswer& answer, int label = 0);
