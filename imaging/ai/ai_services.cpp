@@ -112,7 +112,7 @@ Result<AiAnswer> ai_segment(const AiServer& server, const Volume& volume, const 
   auto values = conversation->protocol->segment(volume, request, progress);
   const std::string& url = server.access.url;
   record_audit({.kind = AuditEvent::Kind::exported,
-                .failure = values ? std::string() : failure_of(pass_on(values)),
+                .failure = values ? std::string() : values.error().message,
                 .peer = {host_of(url), url, {}, {}},
                 .is_deidentified = true},
                request.studies);
