@@ -23,7 +23,6 @@ constexpr int kHighestNumber = 255;
 constexpr const char* kBackground = "background";
 constexpr std::int64_t kBytesAVoxel = 8;  // a value is at most a double
 
-// What is asked of the server is the image alone, so that its body is one file.
 Json to_json(const std::vector<Index3>& clicks) {
   Json list = Json::array();
   for (const Index3 v : clicks) list.push_back({v.x, v.y, v.z});
@@ -129,6 +128,7 @@ Result<fs::path> MonaiLabel::infer(const fs::path& image, const AiRequest& reque
   FormData form;
   form.add("params", parameters(request));
   form.add_file("file", "image.nii", "application/octet-stream", reported);
+  // The answer is the image alone, so that its body is one file.
   HttpRequest post{"infer/" + escaped(request.model.name, "") + "?output=image", "*/*",
                    voxels * kBytesAVoxel + kLongestList, form.type()};
   post.body = form.body();

@@ -6,6 +6,7 @@
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/read_patient.h"
 #include "imaging/guard/guarded.h"
+#include "imaging/pacs/services.h"
 #include "imaging/pacs/storage_classes.h"
 
 namespace tidemark::imaging {
