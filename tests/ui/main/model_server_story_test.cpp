@@ -40,6 +40,9 @@ class ModelServerStoryTest : public QObject {
     QCOMPARE(choice("Model").currentText(), QString(name));
   }
   void activate(ui::CaseWindow* window) {
+    // What a window manager does with a click, after a dialog had the keyboard.
+    desktop_->window().activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&desktop_->window()));
     ui::PictureView* view = window->views().first();
     QTest::mouseClick(view, Qt::MiddleButton, {}, view->rect().center());
     desktop_->wait_until_idle();
@@ -145,6 +148,9 @@ class ModelServerStoryTest : public QObject {
     desktop_->wait_until_idle();
     QVERIFY(!balls_->proxy().state().begun);
 
+    desktop_->screenshot("model-server-2-undone");
+    desktop_->window().panels().show("initialise");  // a surface that begins brings another panel
+    desktop_->wait_until_idle();
     click("As labels");
     QVERIFY(Desktop::wait_for([&] { return balls_->proxy().state().labels.size() == 1; }, kPatience));
     QCOMPARE(QString::fromStdString(balls_->proxy().state().labels.front().name), QString("deepgrow_3d"));
