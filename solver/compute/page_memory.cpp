@@ -191,7 +191,6 @@ Status PageMemory::validate() const {
   const ComputeControl control = read_control();
   const auto table = page_table_.download_values<std::int32_t>(0, field_.layout().layout().page_count());
   const auto inverse = inverse_table_.download_values<std::int32_t>(0, capacity());
-  const auto ring = free_list_.download_values<std::int32_t>(0, ring_length(capacity()));
   std::vector<int> seen(inverse.size());
   std::int64_t resident = 0;
   for (std::size_t page = 0; page < table.size(); ++page) {
@@ -208,8 +207,8 @@ Status PageMemory::validate() const {
     ++resident;
     ++seen[physical];
   }
-  for (std::uint32_t i = control.free_head; i != control.free_tail; ++i) {
-    const auto page = static_cast<std::size_t>(ring[i % ring.size()]);
+  for (const std::int32_t free : free_pages(control)) {
+    const auto page = static_cast<std::size_t>(free);
     if (page >= seen.size() || ++seen[page] > 1 || inverse[page] != -1) {
       return fail(ErrorKind::internal, "free list: page {} is in use or there twice", page);
     }
