@@ -1,7 +1,10 @@
 #include "core/region.h"
 
 #include <algorithm>
+#include <cstring>
 #include <glm/common.hpp>
+
+#include "core/shared_slices.h"
 
 namespace tidemark {
 namespace {
@@ -56,27 +59,25 @@ Region::Region(const Mask& mask) : Region(VoxelRange{Index3(0), mask.geometry.si
   }
 }
 
-Region::Region(std::span<const std::uint8_t> values, std::uint8_t value, Index3 grid_size) {
-  if (values.empty()) return;
-  VoxelRange box{grid_size, Index3(0)};
-  const auto row_at = [&](std::int64_t j, std::int64_t k) {
-    return values.subspan(static_cast<std::size_t>((k * grid_size.y + j) * grid_size.x),
-                          static_cast<std::size_t>(grid_size.x));
-  };
-  for (std::int64_t k = 0; k < grid_size.z; ++k) {
-    for (std::int64_t j = 0; j < grid_size.y; ++j) {
-      const auto voxels = row_at(j, k);
-      const auto begin = std::find(voxels.begin(), voxels.end(), value);
-      if (begin == voxels.end()) continue;
+Region::Region(const SharedSlices& values, std::uint8_t value) {
+  const Index3 size = values.size();
+  VoxelRange box{size, Index3(0)};
+  for (std::int64_t k = 0; k < size.z; ++k) {
+    for (std::int64_t j = 0; j < size.y; ++j) {
+      const auto voxels = values.row(j, k);
+      if (voxels.empty()) continue;
+      const auto* begin = static_cast<const std::uint8_t*>(std::memchr(voxels.data(), value, voxels.size()));
+      if (begin == nullptr) continue;
       const auto end = std::find(voxels.rbegin(), voxels.rend(), value).base();
-      box.low = glm::min(box.low, Index3(begin - voxels.begin(), j, k));
+      box.low = glm::min(box.low, Index3(begin - voxels.data(), j, k));
       box.high = glm::max(box.high, Index3(end - voxels.begin(), j + 1, k + 1));
     }
   }
   *this = Region(box);
   for (std::int64_t k = box.low.z; k < box.high.z; ++k) {
     for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
-      const auto voxels = row_at(j, k);
+      const auto voxels = values.row(j, k);
+      if (voxels.empty()) continue;
       const auto words = row(j, k);
       for (std::int64_t i = box.low.x; i < box.high.x; ++i) {
         const std::int64_t bit = i - first_.x;

@@ -10,6 +10,8 @@
 
 namespace tidemark {
 
+class SharedSlices;
+
 // A box of voxels: from `low` up to, and without, `high`.
 struct VoxelRange {
   Index3 low{0};
@@ -28,9 +30,10 @@ class Region {
   Region() = default;  // no voxel, and room for none
   // No voxel, and room for those of the box.
   explicit Region(const VoxelRange& box);
-  // The voxels that are not 0. The second form: those of that value, `values` in voxel order of the grid.
+  // The voxels that are not 0. The second form: those of that value, which is
+  // not what slices without memory hold.
   explicit Region(const Mask& mask);
-  Region(std::span<const std::uint8_t> values, std::uint8_t value, Index3 grid_size);
+  Region(const SharedSlices& values, std::uint8_t value);
 
   // Of any voxel, in the box or not.
   [[nodiscard]] bool contains(Index3 voxel) const;

@@ -53,13 +53,11 @@ struct Taken {
   }
 };
 
-void give_voxels(const imaging::Segment& segment, std::uint8_t id, const Geometry& geometry,
-                 const Taken& taken, std::vector<std::uint8_t>& voxels) {
+void give_voxels(const imaging::Segment& segment, std::uint8_t id, const Taken& taken, SharedSlices& voxels) {
   for (const auto& [k, slice] : segment.slices) {
-    const auto first = static_cast<std::size_t>(geometry.offset({0, 0, k}));
+    std::uint8_t* const ids = voxels.change(k);
     for (std::size_t i = 0; i < slice.size(); ++i) {
-      std::uint8_t& voxel = voxels[first + i];
-      if (slice[i] != 0 && !taken.locked[voxel]) voxel = id;
+      if (slice[i] != 0 && !taken.locked[ids[i]]) ids[i] = id;
     }
   }
 }
@@ -67,14 +65,14 @@ void give_voxels(const imaging::Segment& segment, std::uint8_t id, const Geometr
 }  // namespace
 
 imaging::Segments segments_of(const Geometry& geometry, std::span<const Label> labels,
-                              std::span<const std::uint8_t> voxels) {
+                              const SharedSlices& voxels) {
   imaging::Segments segments{geometry, {}, {}};
   for (const Label& label : labels) {
     imaging::Segment segment;
     segment.name = label.name;
     segment.colour = label.colour;
     segment.meaning = label.coded();
-    segment.slices = imaging::slices_of(geometry, voxels, label.id);
+    segment.slices = imaging::slices_of(voxels, label.id);
     segments.list.push_back(std::move(segment));
   }
   return segments;
@@ -93,8 +91,7 @@ Status add_segments(Labels& labels, const imaging::Segments& segments) {
                 segments.list.size(), labels.list().size());
   }
   std::vector<Label> list = labels.list();
-  std::vector<std::uint8_t> voxels(labels.voxels().begin(), labels.voxels().end());
-  voxels.resize(static_cast<std::size_t>(labels.geometry().voxel_count()));
+  SharedSlices voxels = labels.voxels();
   Taken taken(list);
   std::string names;
   for (const imaging::Segment& segment : segments.list) {
@@ -103,7 +100,7 @@ Status add_segments(Labels& labels, const imaging::Segments& segments) {
     label.name = shortened(segment.name);
     label.colour = segment.colour.value_or(label_colour(label.id));
     label.meaning = meaning_in(segment);
-    give_voxels(segment, label.id, labels.geometry(), taken, voxels);
+    give_voxels(segment, label.id, taken, voxels);
     names += (names.empty() ? "" : ", ") + label.name;
     list.push_back(std::move(label));
   }

@@ -137,7 +137,7 @@ bool has_other(LabelTool tool) {
 
 Region LabelVoxels::region(std::uint8_t label) const {
   if (label == kTheSurface) return phi == nullptr ? Region() : solver::inside_region(*phi);
-  return voxels == nullptr ? Region() : Region(*voxels, label, geometry.size);
+  return voxels == nullptr ? Region() : Region(*voxels, label);
 }
 
 Result<std::vector<LabelRegion>> use_tool(const LabelToolUse& use, const std::vector<std::uint8_t>& labels,

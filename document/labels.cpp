@@ -1,7 +1,7 @@
 #include "document/labels.h"
 
 #include <algorithm>
-#include <optional>
+#include <span>
 #include <utility>
 
 #include "core/label_colour.h"
@@ -28,25 +28,6 @@ Result<Label> new_label(const std::vector<Label>& list, std::string name) {
   return fail(ErrorKind::usage, "there are 255 labels already");
 }
 
-// Room for the voxels of a grid, which goes again unless something is put there.
-class Room {
- public:
-  Room(std::vector<std::uint8_t>& voxels, std::int64_t count) : voxels_(voxels), was_empty_(voxels.empty()) {
-    voxels_.resize(static_cast<std::size_t>(count));
-  }
-  ~Room() {
-    if (was_empty_ && !kept_) std::vector<std::uint8_t>().swap(voxels_);
-  }
-  Room(const Room&) = delete;
-  Room& operator=(const Room&) = delete;
-  void keep() { kept_ = true; }
-
- private:
-  std::vector<std::uint8_t>& voxels_;
-  bool was_empty_;
-  bool kept_ = false;
-};
-
 }  // namespace
 
 // A run of voxels that had one label and have another one now.
@@ -67,16 +48,13 @@ class LabelsChange : public Change {
 
   // The last run that was put is the first that is taken back.
   Status undo() override {
-    labels_.list_ = list_before_;
-    put(runs_.rbegin(), runs_.rend(), &Labels::Run::before);
+    restore(list_before_, runs_.rbegin(), runs_.rend(), &Labels::Run::before);
     return {};
   }
   Status redo() override {
-    labels_.list_ = list_after_;
-    put_runs();
+    restore(list_after_, runs_.begin(), runs_.end(), &Labels::Run::after);
     return {};
   }
-  void put_runs() { put(runs_.begin(), runs_.end(), &Labels::Run::after); }
   [[nodiscard]] std::int64_t bytes() const override {
     return static_cast<std::int64_t>(sizeof(*this) + runs_.size() * sizeof(Labels::Run) +
                                      (list_before_.size() + list_after_.size()) * sizeof(Label));
@@ -84,9 +62,12 @@ class LabelsChange : public Change {
 
  private:
   template <class Iterator>
-  void put(Iterator begin, Iterator end, std::uint8_t Labels::Run::*side) {
+  void restore(std::vector<Label> list, Iterator begin, Iterator end, std::uint8_t Labels::Run::*side) {
+    SharedSlices voxels = labels_.voxels_;
+    for (auto run = begin; run != end; ++run) voxels.fill(run->begin, run->length, *run.*side);
+    labels_.list_.swap(list);
     if (runs_.empty()) return;
-    for (auto run = begin; run != end; ++run) labels_.put(*run, side);
+    std::swap(labels_.voxels_, voxels);
     ++labels_.revision_;
   }
 
@@ -96,29 +77,24 @@ class LabelsChange : public Change {
   std::vector<Labels::Run> runs_;
 };
 
-void Labels::put(const Run& run, std::uint8_t Run::*side) {
-  std::fill_n(voxels_.begin() + run.begin, run.length, run.*side);
-}
-
 const Label* Labels::find(std::uint8_t id) const {
   return label_in(list_, id);
 }
 
 Status Labels::change(ChangeKind kind, const std::string& name, std::vector<Label> list,
-                      std::vector<Run> runs) {
+                      std::vector<Run> runs, SharedSlices voxels) {
   if (history_ != nullptr) {
     TIDEMARK_TRY(history_->close());
   }
   // All that may lack memory comes first: without an entry of the history there is no change.
-  std::optional<Room> room;
-  if (!runs.empty()) room.emplace(voxels_, geometry_.voxel_count());
+  const bool has_runs = !runs.empty();
   runs.shrink_to_fit();
-  auto made = std::make_unique<LabelsChange>(*this, list, std::move(runs));
-  LabelsChange& change = *made;
-  if (history_ != nullptr) history_->add({kind, 0, name}, std::move(made));
+  if (history_ != nullptr)
+    history_->add({kind, 0, name}, std::make_unique<LabelsChange>(*this, list, std::move(runs)));
   list_.swap(list);
-  change.put_runs();
-  if (room) room->keep();
+  if (!has_runs) return {};
+  std::swap(voxels_, voxels);
+  ++revision_;
   return {};
 }
 
@@ -128,7 +104,7 @@ Result<std::uint8_t> Labels::add(std::string name) {
   const std::uint8_t id = label->id;
   std::vector<Label> list = list_;
   list.push_back(*label);
-  Status changed = change(ChangeKind::new_label, label->name, std::move(list), {});
+  Status changed = change(ChangeKind::new_label, label->name, std::move(list), {}, voxels_);
   if (!changed) return pass_on(changed);
   return id;
 }
@@ -139,7 +115,7 @@ Status Labels::set(const Label& label) {
   if (*present == label) return {};
   std::vector<Label> list = list_;
   list[static_cast<std::size_t>(present - list_.data())] = label;
-  return change(ChangeKind::label_settings, label.name, std::move(list), {});
+  return change(ChangeKind::label_settings, label.name, std::move(list), {}, voxels_);
 }
 
 Status Labels::remove(std::uint8_t id) {
@@ -149,10 +125,12 @@ Status Labels::remove(std::uint8_t id) {
   std::vector<Label> list = list_;
   std::erase_if(list, [&](const Label& label) { return label.id == id; });
   std::vector<Run> runs;
+  SharedSlices voxels = voxels_;
   region(id).for_each_run([&](Index3 voxel, std::int64_t length) {
-    runs.push_back({geometry_.offset(voxel), length, id, 0});
+    const Run& run = runs.emplace_back(Run{geometry_.offset(voxel), length, id, 0});
+    voxels.fill(run.begin, run.length, run.after);
   });
-  return change(ChangeKind::remove_label, present->name, std::move(list), std::move(runs));
+  return change(ChangeKind::remove_label, present->name, std::move(list), std::move(runs), std::move(voxels));
 }
 
 Status Labels::check(const std::vector<Label>& list, const LabelRegion& wanted) const {
@@ -165,15 +143,20 @@ Status Labels::check(const std::vector<Label>& list, const LabelRegion& wanted) 
   return fail(ErrorKind::usage, "what is accepted reaches beyond the grid of the labels");
 }
 
-// Those voxels of the region that are free get that label; `runs` were put already.
-void Labels::add_runs(const Region& region, std::uint8_t after, const std::array<bool, 256>& free,
-                      Acceptance& acceptance, std::vector<Run>& runs) const {
+// Those voxels of the region that are free get that label.
+void Labels::give_voxels(const Region& region, std::uint8_t after, const std::array<bool, 256>& free,
+                         Acceptance& acceptance, std::vector<Run>& runs, SharedSlices& voxels) const {
+  const std::size_t first_run = runs.size();
   region.for_each_run([&](Index3 voxel, std::int64_t length) {
     const std::int64_t begin = geometry_.offset(voxel);
+    const std::span<const std::uint8_t> row = voxels.row(voxel.y, voxel.z);
+    const auto label_at = [&](std::int64_t at) {
+      return row.empty() ? std::uint8_t{0} : row[static_cast<std::size_t>(voxel.x + at - begin)];
+    };
     for (std::int64_t at = begin; at < begin + length;) {
-      const std::uint8_t before = voxels_[static_cast<std::size_t>(at)];
+      const std::uint8_t before = label_at(at);
       std::int64_t end = at + 1;
-      while (end < begin + length && voxels_[static_cast<std::size_t>(end)] == before) ++end;
+      while (end < begin + length && label_at(end) == before) ++end;
       if (!free[before]) {
         acceptance.left += end - at;
       } else {
@@ -184,6 +167,8 @@ void Labels::add_runs(const Region& region, std::uint8_t after, const std::array
       at = end;
     }
   });
+  for (std::size_t n = first_run; n < runs.size(); ++n)
+    voxels.fill(runs[n].begin, runs[n].length, runs[n].after);
 }
 
 Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, Giving giving) {
@@ -199,44 +184,30 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
     TIDEMARK_TRY(check(list, wanted));
     acceptance.label += (acceptance.label.empty() ? "" : ", ") + label_in(list, wanted.label)->name;
   }
-  Room room(voxels_, geometry_.voxel_count());
   std::vector<Run> runs;
-  // Each region is found on top of those before it. Then they are taken back: change() puts them.
-  std::size_t put_so_far = 0;
-  const auto put_new = [&] {
-    for (; put_so_far < runs.size(); ++put_so_far) put(runs[put_so_far], &Run::after);
-  };
-  const auto take_back = [&] {
-    while (put_so_far > 0) put(runs[--put_so_far], &Run::before);
-  };
-  try {
-    for (const LabelRegion& wanted : regions) {
-      std::array<bool, 256> free{};  // whose voxels may be given away
-      free[0] = free[wanted.label] = true;
-      for (const Label& other : list) {
-        if (take == Take::others_too && !other.locked) free[other.id] = true;
-      }
-      if (giving == Giving::erases) {
-        Acceptance erased;
-        std::array<bool, 256> own{};
-        own[wanted.label] = true;
-        add_runs(wanted.region, 0, own, erased, runs);
-      } else if (giving == Giving::replaces) {
-        Acceptance cleared;
-        add_runs(difference(region(wanted.label), wanted.region), 0, free, cleared, runs);
-        put_new();
-      }
-      if (giving != Giving::erases) add_runs(wanted.region, wanted.label, free, acceptance, runs);
-      put_new();
+  SharedSlices voxels = voxels_;  // each region is found on top of those before it
+  for (const LabelRegion& wanted : regions) {
+    std::array<bool, 256> free{};  // whose voxels may be given away
+    free[0] = free[wanted.label] = true;
+    for (const Label& other : list) {
+      if (take == Take::others_too && !other.locked) free[other.id] = true;
     }
-  } catch (...) {
-    take_back();
-    throw;
+    if (giving == Giving::erases) {
+      Acceptance erased;
+      std::array<bool, 256> own{};
+      own[wanted.label] = true;
+      give_voxels(wanted.region, 0, own, erased, runs, voxels);
+      continue;
+    }
+    if (giving == Giving::replaces) {
+      Acceptance cleared;
+      const Region beside = difference(Region(voxels, wanted.label), wanted.region);
+      give_voxels(beside, 0, free, cleared, runs, voxels);
+    }
+    give_voxels(wanted.region, wanted.label, free, acceptance, runs, voxels);
   }
-  take_back();
-  Status changed = change(kind, acceptance.label, std::move(list), std::move(runs));
+  Status changed = change(kind, acceptance.label, std::move(list), std::move(runs), std::move(voxels));
   if (!changed) return pass_on(changed);
-  room.keep();
   return acceptance;
 }
 
@@ -257,13 +228,10 @@ Result<Acceptance> Labels::brush(LabelRegion stroke, Stroke what, Take take) {
 }
 
 Mask Labels::mask(std::uint8_t id) const {
-  Mask mask{geometry_, std::vector<std::uint8_t>(static_cast<std::size_t>(geometry_.voxel_count()))};
-  std::transform(voxels_.begin(), voxels_.end(), mask.voxels.begin(),
-                 [&](std::uint8_t voxel) { return std::uint8_t(voxel == id); });
-  return mask;
+  return mask_of(region(id), geometry_);
 }
 
-Status Labels::check(const std::vector<Label>& list, const std::vector<std::uint8_t>& voxels) const {
+Status Labels::check(const std::vector<Label>& list, const SharedSlices& voxels) const {
   std::array<bool, 256> known{true};
   for (const Label& label : list) {
     if (label.id == 0 || known[label.id]) {
@@ -271,36 +239,45 @@ Status Labels::check(const std::vector<Label>& list, const std::vector<std::uint
     }
     known[label.id] = true;
   }
-  if (!voxels.empty() && static_cast<std::int64_t>(voxels.size()) != geometry_.voxel_count()) {
-    return fail(ErrorKind::usage, "{} labelled voxels, the volume has {}", voxels.size(),
+  if (voxels.size() != geometry_.size) {
+    const Index3 size = voxels.size();
+    return fail(ErrorKind::usage, "{} labelled voxels, the volume has {}", size.x * size.y * size.z,
                 geometry_.voxel_count());
   }
-  const auto stray = std::find_if(voxels.begin(), voxels.end(), [&](std::uint8_t id) { return !known[id]; });
-  if (stray != voxels.end())
-    return fail(ErrorKind::usage, "a voxel has label {}, which is not in the list", *stray);
+  for (std::int64_t k = 0; k < geometry_.size.z; ++k) {
+    const std::span<const std::uint8_t> slice = voxels.slice(k);
+    const auto stray = std::find_if(slice.begin(), slice.end(), [&](std::uint8_t id) { return !known[id]; });
+    if (stray != slice.end())
+      return fail(ErrorKind::usage, "a voxel has label {}, which is not in the list", *stray);
+  }
   return {};
 }
 
 Status Labels::replace(ChangeKind kind, const std::string& name, std::vector<Label> list,
-                       std::vector<std::uint8_t> voxels) {
+                       SharedSlices voxels) {
   TIDEMARK_TRY(check(list, voxels));
   std::vector<Run> runs;
-  for (std::size_t i = 0; i < std::max(voxels.size(), voxels_.size()); ++i) {
-    const std::uint8_t before = i < voxels_.size() ? voxels_[i] : std::uint8_t{0};
-    const std::uint8_t after = i < voxels.size() ? voxels[i] : std::uint8_t{0};
-    if (before == after) continue;
-    const auto at = static_cast<std::int64_t>(i);
-    if (!runs.empty() && runs.back().begin + runs.back().length == at && runs.back().before == before &&
-        runs.back().after == after) {
-      ++runs.back().length;
-    } else {
-      runs.push_back({at, 1, before, after});
+  const auto area = static_cast<std::size_t>(geometry_.size.x * geometry_.size.y);
+  for (const std::int64_t k : voxels.differing_slices(voxels_)) {
+    const std::span<const std::uint8_t> then = voxels_.slice(k);
+    const std::span<const std::uint8_t> now = voxels.slice(k);
+    for (std::size_t i = 0; i < area; ++i) {
+      const std::uint8_t before = then.empty() ? std::uint8_t{0} : then[i];
+      const std::uint8_t after = now.empty() ? std::uint8_t{0} : now[i];
+      if (before == after) continue;
+      const std::int64_t at = static_cast<std::int64_t>(area) * k + static_cast<std::int64_t>(i);
+      if (!runs.empty() && runs.back().begin + runs.back().length == at && runs.back().before == before &&
+          runs.back().after == after) {
+        ++runs.back().length;
+      } else {
+        runs.push_back({at, 1, before, after});
+      }
     }
   }
-  return change(kind, name, std::move(list), std::move(runs));
+  return change(kind, name, std::move(list), std::move(runs), std::move(voxels));
 }
 
-Status Labels::assign(std::vector<Label> list, std::vector<std::uint8_t> voxels) {
+Status Labels::assign(std::vector<Label> list, SharedSlices voxels) {
   TIDEMARK_TRY(check(list, voxels));
   list_ = std::move(list);
   voxels_ = std::move(voxels);

@@ -4,11 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "core/region.h"
+#include "core/shared_slices.h"
 #include "core/volume.h"
 #include "document/history.h"
 #include "imaging/results/segment_meaning.h"
@@ -51,13 +51,13 @@ class Labels {
  public:
   // Changes become entries of `history`, if it is not null. It must not be used after the labels are gone.
   explicit Labels(const Geometry& geometry, History* history = nullptr)
-      : geometry_(geometry), history_(history) {}
+      : geometry_(geometry), history_(history), voxels_(geometry.size) {}
 
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] const std::vector<Label>& list() const { return list_; }
   [[nodiscard]] const Label* find(std::uint8_t id) const;  // null: there is none
-  // A label id for each voxel in voxel order; empty while no voxel has a label.
-  [[nodiscard]] std::span<const std::uint8_t> voxels() const { return voxels_; }
+  // A label id for each voxel, 0 for none.
+  [[nodiscard]] const SharedSlices& voxels() const { return voxels_; }
   [[nodiscard]] std::uint64_t revision() const { return revision_; }  // another after each change of voxels
 
   // A new label with a colour that differs from the others'. Fails (ErrorKind::usage) when there are 255.
@@ -76,34 +76,34 @@ class Labels {
   enum class Stroke { adds, erases };
   Result<Acceptance> brush(LabelRegion stroke, Stroke what, Take take = Take::free_voxels);
   [[nodiscard]] Mask mask(std::uint8_t id) const;
-  [[nodiscard]] Region region(std::uint8_t id) const { return {voxels(), id, geometry_.size}; }
+  [[nodiscard]] Region region(std::uint8_t id) const { return {voxels_, id}; }
 
   // Other labels and other voxels, all at once. Fails as assign() does.
-  Status replace(ChangeKind kind, const std::string& name, std::vector<Label> list,
-                 std::vector<std::uint8_t> voxels);
+  Status replace(ChangeKind kind, const std::string& name, std::vector<Label> list, SharedSlices voxels);
 
   // Restores saved labels; not an entry of the history. Fails (ErrorKind::usage) when a voxel's label is not
-  // in the list, an id is there twice, or the number of voxels is neither 0 nor the grid's.
-  Status assign(std::vector<Label> list, std::vector<std::uint8_t> voxels);
+  // in the list, an id is there twice, or the voxels are of another grid.
+  Status assign(std::vector<Label> list, SharedSlices voxels);
 
  private:
   friend class LabelsChange;
   struct Run;
-  [[nodiscard]] Status check(const std::vector<Label>& list, const std::vector<std::uint8_t>& voxels) const;
+  [[nodiscard]] Status check(const std::vector<Label>& list, const SharedSlices& voxels) const;
   [[nodiscard]] Status check(const std::vector<Label>& list, const LabelRegion& wanted) const;
   enum class Giving { replaces, adds, erases };
   Result<Acceptance> give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, Giving giving);
-  void add_runs(const Region& region, std::uint8_t after, const std::array<bool, 256>& free,
-                Acceptance& acceptance, std::vector<Run>& runs) const;
-  void put(const Run& run, std::uint8_t Run::*side);
+  void give_voxels(const Region& region, std::uint8_t after, const std::array<bool, 256>& free,
+                   Acceptance& acceptance, std::vector<Run>& runs, SharedSlices& voxels) const;
 
-  // Another list and other voxels, as an entry of the history. The runs are put one after the other.
-  Status change(ChangeKind kind, const std::string& name, std::vector<Label> list, std::vector<Run> runs);
+  // Another list and other voxels, as an entry of the history. `runs` are what differs in them: put one after
+  // the other, they make `voxels` of those before.
+  Status change(ChangeKind kind, const std::string& name, std::vector<Label> list, std::vector<Run> runs,
+                SharedSlices voxels);
 
   Geometry geometry_;
   History* history_;
   std::vector<Label> list_;
-  std::vector<std::uint8_t> voxels_;
+  SharedSlices voxels_;
   std::uint64_t revision_ = 0;
 };
 

@@ -23,11 +23,15 @@ RegionStatistics ValueSums::result(const Volume& volume) const {
 
 std::vector<RegionStatistics> statistics_by_label(const Volume& volume, const Labels& labels) {
   std::vector<ValueSums> sums(256);
-  const std::span<const std::uint8_t> ids = labels.voxels();
   std::visit(
       [&](const auto& stored) {
-        for (std::size_t i = 0; i < stored.size() && i < ids.size(); ++i) {
-          if (ids[i] != 0) sums[ids[i]].add(static_cast<double>(stored[i]));
+        auto value = stored.begin();
+        const Index3 size = labels.geometry().size;
+        for (std::int64_t k = 0; k < size.z; ++k, value += size.x * size.y) {
+          const std::span<const std::uint8_t> ids = labels.voxels().slice(k);
+          for (std::size_t i = 0; i < ids.size(); ++i) {
+            if (ids[i] != 0) sums[ids[i]].add(static_cast<double>(value[static_cast<std::ptrdiff_t>(i)]));
+          }
         }
       },
       volume.voxels);

@@ -27,9 +27,9 @@ Result<imaging::Segments> result_segments(const SessionContents& contents, Resul
   if (content == ResultContent::visible_labels) {
     std::erase_if(wanted, [](const Label& label) { return !label.visible; });
   }
-  std::span<const std::uint8_t> voxels;
-  if (contents.label_voxels) voxels = *contents.label_voxels;
-  imaging::Segments segments = segments_of(contents.geometry, wanted, voxels);
+  const SharedSlices none(contents.geometry.size);
+  imaging::Segments segments =
+      segments_of(contents.geometry, wanted, contents.label_voxels ? *contents.label_voxels : none);
   std::erase_if(segments.list, [](const imaging::Segment& segment) { return segment.slices.empty(); });
   if (segments.list.empty()) return fail(ErrorKind::usage, "no voxel has one of these labels");
   return segments;

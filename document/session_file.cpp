@@ -238,18 +238,17 @@ Result<std::shared_ptr<const solver::Field>> read_phi(ZipReader& archive, const 
 }
 
 Status read_label_voxels(ZipReader& archive, SessionContents& contents, const std::string& file) {
-  std::vector<std::uint8_t> voxels;
+  SharedSlices voxels(contents.geometry.size);
   if (archive.has(kLabels)) {
-    auto read = read_numbers<std::uint8_t>(archive, kLabels, contents.geometry.voxel_count());
+    const auto read = read_numbers<std::uint8_t>(archive, kLabels, contents.geometry.voxel_count());
     if (!read) return pass_on(read);
-    voxels = std::move(*read);
+    voxels = SharedSlices(contents.geometry.size, *read);
   }
   Labels trial(contents.geometry);
   if (const Status good = trial.assign(contents.labels, voxels); !good) {
     return fail(ErrorKind::input, "{}: labels: {}", file, good.error().message);
   }
-  if (!voxels.empty())
-    contents.label_voxels = std::make_shared<const std::vector<std::uint8_t>>(std::move(voxels));
+  if (!voxels.empty()) contents.label_voxels = std::make_shared<const SharedSlices>(std::move(voxels));
   return {};
 }
 
@@ -307,7 +306,11 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
   std::vector<ZipEntry> entries{{kJson, std::as_bytes(std::span(json))},
                                 {kTable, std::as_bytes(std::span(phi.tables()))},
                                 {kPages, std::as_bytes(std::span(phi.pages()))}};
-  if (contents.label_voxels) entries.push_back({kLabels, std::as_bytes(std::span(*contents.label_voxels))});
+  std::vector<std::uint8_t> labels;
+  if (contents.label_voxels) {
+    labels = contents.label_voxels->voxels();
+    entries.push_back({kLabels, std::as_bytes(std::span(labels))});
+  }
   if (contents.truth) entries.push_back({kTruth, std::as_bytes(std::span(contents.truth->voxels))});
   HistoryEntries history;
   if (what == InFile::all && !contents.history.empty()) {

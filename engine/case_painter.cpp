@@ -105,10 +105,7 @@ Status CasePainter::show_phi(Canvas& canvas, document::Case& document, bool with
 }
 
 Status CasePainter::show_labels(Canvas& canvas, const document::Labels& labels) {
-  if (canvas.labels != labels.revision() && !labels.voxels().empty()) {
-    TIDEMARK_TRY(canvas.renderer->set_labels(labels.voxels()));
-    canvas.labels = labels.revision();
-  }
+  TIDEMARK_TRY(canvas.renderer->set_labels(labels.voxels()));
   if (canvas.label_list == labels.list()) return {};
   std::vector<renderer::LabelColour> colours(renderer::kLabels);
   for (const document::Label& label : labels.list()) {
@@ -145,7 +142,6 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
     canvas.change = change;
     canvas.renderer->set_change(change);
   }
-  TIDEMARK_TRY(show_labels(canvas, document.labels()));
   const bool phi_is_old = canvas.phi != phi_revision_ || (with_pages && canvas.pages != phi_revision_);
   if (phi_is_old || (canvas.sees_executor && canvas.executor_uses != executor_uses_)) {
     TIDEMARK_TRY(show_phi(canvas, document, with_pages));
@@ -163,11 +159,13 @@ std::shared_ptr<const solver::SpeedFunction> CasePainter::shown_change(
   return limit == nullptr ? nullptr : limit->change();
 }
 
-Result<CasePainter::Canvas*> CasePainter::canvas_for(const AnyView& view, document::Case& document) {
+Result<CasePainter::Canvas*> CasePainter::canvas_for(const AnyView& view, document::Case& document,
+                                                     const document::Labels* labels) {
   const auto& solved = document.level_set().source();
   const bool another = solved != document.volume() && shows_speed(view);
   Canvas& canvas = another ? solved_ : shown_;
   TIDEMARK_TRY(prepare(canvas, another ? solved : document.volume(), document, shows_pages(view)));
+  TIDEMARK_TRY(show_labels(canvas, labels != nullptr ? *labels : document.labels()));
   return &canvas;
 }
 
@@ -180,7 +178,7 @@ Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::st
     is_new = std::exchange(slot.wish_is_new, false);
   }
   if (!wish || wish->size.width <= 0 || wish->size.height <= 0) return false;
-  const auto canvas = canvas_for(wish->view, document);
+  const auto canvas = canvas_for(wish->view, document, wish->labels.get());
   if (!canvas) return pass_on(canvas);
   if (is_new || slot.drawn_phi != phi_revision_ || slot.drawn_look != look_revision_) {
     slot.quality.moved();

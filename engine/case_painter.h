@@ -75,14 +75,15 @@ class CasePainter {
     std::int64_t pages = -1;     // revision of phi with which the pages' state was shown
     bool sees_executor = false;  // and no copy of phi
     std::uint64_t executor_uses = 0;
-    std::uint64_t labels = 0;  // revision
     std::vector<document::Label> label_list;
     std::optional<solver::Parameters> parameters;
     std::shared_ptr<const solver::SpeedFunction> speed;
     std::shared_ptr<const solver::SpeedFunction> change;
   };
 
-  Result<Canvas*> canvas_for(const AnyView& view, document::Case& document);
+  // `labels` are shown in place of the case's; null: those.
+  Result<Canvas*> canvas_for(const AnyView& view, document::Case& document,
+                             const document::Labels* labels = nullptr);
   Status prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, document::Case& document,
                  bool with_pages);
   [[nodiscard]] std::shared_ptr<const solver::SpeedFunction> shown_change(

@@ -64,10 +64,10 @@ struct CaseState {
   std::optional<double> dice;         // against CaseProxy::truth(), as of the last measurement
   document::RegionStatistics inside;  // of the volume's values, under the surface; measured when it rests
   std::vector<document::Label> labels;
-  std::vector<document::RegionStatistics> label_statistics;       // in the order of `labels`
-  std::shared_ptr<const std::vector<std::uint8_t>> label_voxels;  // null while there are none
-  std::optional<document::Acceptance> acceptance;                 // while it is the last change
-  QString undo_text;                                              // which change undo takes back; empty: none
+  std::vector<document::RegionStatistics> label_statistics;  // in the order of `labels`
+  std::shared_ptr<const SharedSlices> label_voxels;          // null while there are none
+  std::optional<document::Acceptance> acceptance;            // while it is the last change
+  QString undo_text;                                         // which change undo takes back; empty: none
   QString redo_text;
   std::shared_ptr<const HistoryRows> history = std::make_shared<const HistoryRows>();  // never null
   std::uint64_t history_state = 0;  // of them, the present one or the one where the next begins

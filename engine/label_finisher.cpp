@@ -11,20 +11,31 @@ namespace {
 
 using Preview = std::shared_ptr<const LabelPreview>;
 
+// How many voxels have one of the labels.
+std::int64_t count(const SharedSlices& voxels, const std::array<bool, 256>& labels) {
+  std::int64_t count = 0;
+  for (std::int64_t k = 0; k < voxels.size().z; ++k) {
+    const auto slice = voxels.slice(k);
+    count += std::count_if(slice.begin(), slice.end(), [&](std::uint8_t id) { return labels[id]; });
+  }
+  return count;
+}
+
 Result<Preview> computed(LabelPreview preview, const Progress& progress) {
-  auto regions = document::use_tool(preview.use, preview.labels, preview.from, progress);
+  const document::LabelVoxels& from = preview.from;
+  auto regions = document::use_tool(preview.use, preview.labels, from, progress);
   if (!regions) return pass_on(regions);
   preview.regions = std::move(*regions);
-  const double voxel_ml = preview.from.geometry.voxel_volume_ml();
-  std::array<bool, 256> chosen{};
-  for (const document::LabelRegion& region : preview.regions) chosen[region.label] = region.label != 0;
-  if (const auto& voxels = preview.from.voxels) {
-    const auto count =
-        std::count_if(voxels->begin(), voxels->end(), [&](std::uint8_t id) { return chosen[id]; });
-    preview.before_ml = static_cast<double>(count) * voxel_ml;
-  }
-  for (const document::LabelRegion& region : preview.regions)
-    preview.after_ml += static_cast<double>(region.region.count()) * voxel_ml;
+  auto after = std::make_shared<document::Labels>(from.geometry);
+  TIDEMARK_TRY(after->assign(from.list, from.voxels ? *from.voxels : SharedSlices(from.geometry.size)));
+  const auto accepted = after->finish(preview.regions, preview.take);
+  if (!accepted) return pass_on(accepted);
+  std::array<bool, 256> changed{};
+  for (const document::LabelRegion& region : preview.regions) changed[region.label] = region.label != 0;
+  const double voxel_ml = from.geometry.voxel_volume_ml();
+  if (from.voxels) preview.before_ml = static_cast<double>(count(*from.voxels, changed)) * voxel_ml;
+  preview.after_ml = static_cast<double>(accepted->taken) * voxel_ml;
+  preview.after = std::move(after);
   return std::make_shared<const LabelPreview>(std::move(preview));
 }
 
@@ -32,10 +43,14 @@ Result<Preview> computed(LabelPreview preview, const Progress& progress) {
 
 LabelFinisher::LabelFinisher(CaseProxy& proxy) : proxy_(proxy) {}
 
-void LabelFinisher::begin(const document::LabelToolUse& use, const std::vector<std::uint8_t>& labels) {
+void LabelFinisher::begin(const document::LabelToolUse& use, const std::vector<std::uint8_t>& labels,
+                          document::Take take) {
   const CaseState& state = proxy_.state();
-  LabelPreview wanted{use, labels, {proxy_.volume().geometry, state.labels, state.label_voxels, state.phi},
-                      {},  0.0,    0.0};
+  LabelPreview wanted;
+  wanted.use = use;
+  wanted.labels = labels;
+  wanted.from = {proxy_.volume().geometry, state.labels, state.label_voxels, state.phi};
+  wanted.take = take;
   run([wanted = std::move(wanted)](const Progress& progress) { return computed(wanted, progress); },
       [this](Preview preview) {
         preview_ = std::move(preview);
@@ -52,9 +67,9 @@ void LabelFinisher::clear() {
   if (std::exchange(preview_, nullptr) != nullptr) emit changed();
 }
 
-void LabelFinisher::apply(document::Take take) {
+void LabelFinisher::apply() {
   if (!is_current()) return;
-  proxy_.finish_labels({preview_, &preview_->regions}, take);
+  proxy_.finish_labels({preview_, &preview_->regions}, preview_->take);
   clear();
 }
 

@@ -18,7 +18,7 @@ class LabelFinisher : public JobRunner {
   explicit LabelFinisher(CaseProxy& proxy);
 
   // The former preview stays until the new one is there; ends with changed(), failed() or cancelled().
-  void begin(const document::LabelToolUse& use, const std::vector<std::uint8_t>& labels);
+  void begin(const document::LabelToolUse& use, const std::vector<std::uint8_t>& labels, document::Take take);
   // Null: there is none.
   [[nodiscard]] const std::shared_ptr<const LabelPreview>& preview() const { return preview_; }
   // Whether it is of the labels as they are now.
@@ -27,7 +27,7 @@ class LabelFinisher : public JobRunner {
   void clear();  // the preview, and what is being computed
 
   // The labels become what the preview shows: one entry of the history. Nothing without a current preview.
-  void apply(document::Take take);
+  void apply();
 
  signals:
   void changed();  // preview()

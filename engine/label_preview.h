@@ -1,6 +1,7 @@
 // The preview of what labels are about to become, for views.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "document/label_tool.h"
@@ -12,9 +13,11 @@ struct LabelPreview {
   document::LabelToolUse use;
   std::vector<std::uint8_t> labels;
   document::LabelVoxels from;
+  document::Take take = document::Take::free_voxels;
   std::vector<document::LabelRegion> regions;
-  double before_ml = 0.0;  // of all labels that change
-  double after_ml = 0.0;   // of all that they would become
+  std::shared_ptr<const document::Labels> after;  // all labels as they would be; null while a stroke is drawn
+  double before_ml = 0.0;                         // of all labels that change
+  double after_ml = 0.0;                          // of all that they would become
 };
 
 }  // namespace tidemark::engine

@@ -17,10 +17,11 @@ PictureFeed::~PictureFeed() {
   slot_->weak_receiver->close();
 }
 
-void PictureFeed::request(const AnyView& view, renderer::PictureSize size) {
+void PictureFeed::request(const AnyView& view, renderer::PictureSize size,
+                          const std::shared_ptr<const document::Labels>& labels) {
   {
     const std::lock_guard lock(slot_->mutex);
-    ViewSlot::Wish wish{view, size};
+    ViewSlot::Wish wish{view, size, labels};
     if (slot_->wish == wish) return;
     slot_->wish = std::move(wish);
     slot_->wish_is_new = true;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <variant>
 
+#include "document/labels.h"
 #include "renderer/picture.h"
 #include "renderer/views.h"
 
@@ -40,8 +41,10 @@ class PictureFeed : public QObject {
   explicit PictureFeed(CaseProxy& proxy, QObject* parent = nullptr);
   ~PictureFeed() override;
 
-  // `size` in physical pixels. The newest request wins; one that is like the last asks for nothing.
-  void request(const AnyView& view, renderer::PictureSize size);
+  // `size` in physical pixels. `labels` are shown in place of the case's; null: those. The newest request
+  // wins; one that is like the last asks for nothing.
+  void request(const AnyView& view, renderer::PictureSize size,
+               const std::shared_ptr<const document::Labels>& labels = nullptr);
   [[nodiscard]] const ShownPicture& shown() const { return shown_; }
 
  signals:

@@ -18,6 +18,7 @@ struct ViewSlot {
   struct Wish {
     AnyView view;
     renderer::PictureSize size;
+    std::shared_ptr<const document::Labels> labels;  // in place of the case's; null: those
     bool operator==(const Wish&) const = default;
   };
 

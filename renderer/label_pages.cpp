@@ -8,6 +8,8 @@
 namespace tidemark::renderer {
 namespace {
 
+constexpr std::int64_t kFiltered = 1;  // filtering reaches a voxel further
+
 std::int32_t only_label(const std::bitset<kLabels>& set) {
   std::int32_t label = 0;
   while (!set[static_cast<std::size_t>(label)]) ++label;
@@ -25,34 +27,55 @@ std::vector<LabelColour> first_label_colours() {
   return colours;
 }
 
+std::vector<std::int64_t> layers_around(const solver::PageLayout& layout,
+                                        const std::vector<std::int64_t>& slices, std::int64_t reach) {
+  const std::int64_t depth = layout.page_shape().z;
+  std::vector<bool> is_near(static_cast<std::size_t>(layout.pages().z));
+  for (const std::int64_t k : slices) {
+    const std::int64_t last = std::min(k + reach, layout.volume_size().z - 1) / depth;
+    for (std::int64_t layer = std::max<std::int64_t>(k - reach, 0) / depth; layer <= last; ++layer)
+      is_near[static_cast<std::size_t>(layer)] = true;
+  }
+  std::vector<std::int64_t> layers;
+  for (std::size_t layer = 0; layer < is_near.size(); ++layer) {
+    if (is_near[layer]) layers.push_back(static_cast<std::int64_t>(layer));
+  }
+  return layers;
+}
+
 LabelPages::LabelPages(const solver::PageLayout& layout) : layout_(layout) {
   visible_.set();
   visible_.reset(0);
 }
 
-void LabelPages::set_voxels(std::span<const std::uint8_t> voxels) {
+void LabelPages::set_voxels(const SharedSlices& voxels, const std::vector<std::int64_t>& changed) {
   const Index3 size = layout_.volume_size();
-  sets_.assign(static_cast<std::size_t>(layout_.page_count()), {});
+  if (sets_.empty()) sets_.assign(static_cast<std::size_t>(layout_.page_count()), LabelSet(1));
   const auto collect = [&](std::int64_t page) {
-    // Filtering reaches a voxel further.
     const Index3 first = layout_.first_voxel(page);
-    const Index3 low = glm::max(first - Index3(1), Index3(0));
-    const Index3 high = glm::min(first + layout_.valid_shape(page), size - Index3(1));
-    LabelSet& set = sets_[static_cast<std::size_t>(page)];
+    const Index3 low = glm::max(first - Index3(kFiltered), Index3(0));
+    const Index3 high =
+        glm::min(first + layout_.valid_shape(page) - Index3(1) + Index3(kFiltered), size - Index3(1));
+    LabelSet set;
     int last = -1;
     for (std::int64_t z = low.z; z <= high.z; ++z) {
-      for (std::int64_t y = low.y; y <= high.y; ++y) {
-        const std::uint8_t* row = voxels.data() + size.x * (y + size.y * z);
+      if (voxels.slice(z).empty()) set.set(0);
+      for (std::int64_t y = low.y; y <= high.y && !voxels.slice(z).empty(); ++y) {
+        const std::uint8_t* row = voxels.row(y, z).data();
         for (std::int64_t x = low.x; x <= high.x; ++x) {
           if (row[x] != last) set.set(row[x]);
           last = row[x];
         }
       }
     }
+    sets_[static_cast<std::size_t>(page)] = set;
   };
+  const std::int64_t pages_a_layer = layout_.pages().x * layout_.pages().y;
+  const std::vector<std::int64_t> layers = layers_around(layout_, changed, kFiltered);
   ThreadPool pool;
-  pool.for_each(layout_.page_count(), 64, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t page = begin; page < end; ++page) collect(page);
+  pool.for_each(std::ssize(layers) * pages_a_layer, 64, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i)
+      collect(layers[static_cast<std::size_t>(i / pages_a_layer)] * pages_a_layer + i % pages_a_layer);
   });
   update();
 }
@@ -61,14 +84,6 @@ void LabelPages::set_colours(std::span<const LabelColour> colours) {
   visible_.reset();
   for (std::size_t label = 1; label < colours.size(); ++label) visible_[label] = colours[label][3] > 0;
   update();
-}
-
-std::vector<std::int64_t> LabelPages::mixed() const {
-  std::vector<std::int64_t> mixed;
-  for (std::size_t page = 0; page < sets_.size(); ++page) {
-    if (sets_[page].count() > 1) mixed.push_back(static_cast<std::int64_t>(page));
-  }
-  return mixed;
 }
 
 void LabelPages::update() {

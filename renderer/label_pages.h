@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/shared_slices.h"
 #include "renderer/renderer.h"
 #include "solver/paging/page_layout.h"
 
@@ -17,8 +18,8 @@ class LabelPages {
   // At first no voxel has a label, and all labels are seen.
   explicit LabelPages(const solver::PageLayout& layout);
 
-  // In voxel order.
-  void set_voxels(std::span<const std::uint8_t> voxels);
+  // Those slices have other voxels than before.
+  void set_voxels(const SharedSlices& voxels, const std::vector<std::int64_t>& changed);
   // Of the labels from 0 on.
   void set_colours(std::span<const LabelColour> colours);
 
@@ -29,8 +30,10 @@ class LabelPages {
   // By virtual page: 0 where no label shows, the label that it has throughout, or kMixed.
   static constexpr std::int32_t kMixed = -1;
   [[nodiscard]] std::span<const std::int32_t> pages() const { return pages_; }
-  // The pages with several labels, or a label and none, in them or one voxel around them.
-  [[nodiscard]] std::vector<std::int64_t> mixed() const;
+  // Whether it holds several labels, or a label and none, in it or one voxel around it.
+  [[nodiscard]] bool is_mixed(std::int64_t page) const {
+    return sets_[static_cast<std::size_t>(page)].count() > 1;
+  }
 
  private:
   using LabelSet = std::bitset<kLabels>;
@@ -42,6 +45,12 @@ class LabelPages {
   std::vector<std::int32_t> pages_;
   bool shows_ = false;
 };
+
+// The layers of pages along k, in ascending order, that such slices or others at most `reach` from them are
+// in.
+[[nodiscard]] std::vector<std::int64_t> layers_around(const solver::PageLayout& layout,
+                                                      const std::vector<std::int64_t>& slices,
+                                                      std::int64_t reach);
 
 // The labels' first colours (core/label_colour.h).
 std::vector<LabelColour> first_label_colours();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "core/shared_slices.h"
 #include "renderer/picture.h"
 #include "renderer/views.h"
 #include "solver/executor.h"
@@ -62,8 +63,9 @@ class Renderer {
   // Walls and anchors, which slices show; null: none. Fails (ErrorKind::usage) when they are on another grid,
   // (ErrorKind::capability) when memory is short.
   virtual Status set_constraints(const solver::Constraints* constraints) = 0;
-  // A label for each voxel, 0 for none. Fails (ErrorKind::usage) when there are not as many as voxels.
-  virtual Status set_labels(std::span<const std::uint8_t> labels) = 0;
+  // A label for each voxel, 0 for none. Takes time by the slices that lie elsewhere than before. Fails
+  // (ErrorKind::usage) when they are on another grid, (ErrorKind::capability) when memory is short.
+  virtual Status set_labels(const SharedSlices& labels) = 0;
   // Of the labels from 0 on; at first all are seen, with label_colour(). Fails (ErrorKind::usage) on more
   // than kLabels.
   virtual Status set_label_colours(std::span<const LabelColour> colours) = 0;

@@ -33,8 +33,7 @@ document::LabelVoxels labelled_volume() {
   volume.geometry.size = {512, 512, 600};
   volume.geometry.spacing_mm = {0.7, 0.7, 1.0};
   const Index3 size = volume.geometry.size;
-  auto voxels =
-      std::make_shared<std::vector<std::uint8_t>>(static_cast<std::size_t>(volume.geometry.voxel_count()));
+  std::vector<std::uint8_t> voxels(static_cast<std::size_t>(volume.geometry.voxel_count()));
   std::mt19937 random(1);
   for (int label = 1; label <= 20; ++label) {
     document::Label named;
@@ -50,7 +49,7 @@ document::LabelVoxels labelled_volume() {
       glm::dvec3 place(random() % 1000, random() % 1000, random() % 1000);
       place = (centre + radius * (place / 500.0 - 1.0) * 1.1) / volume.geometry.spacing_mm;
       if (volume.geometry.contains(Index3(place)))
-        (*voxels)[static_cast<std::size_t>(volume.geometry.offset(Index3(place)))] = named.id;
+        voxels[static_cast<std::size_t>(volume.geometry.offset(Index3(place)))] = named.id;
     }
     for (auto k = static_cast<std::int64_t>(centre.z - radius);
          k <= static_cast<std::int64_t>(centre.z + radius); ++k) {
@@ -60,12 +59,12 @@ document::LabelVoxels labelled_volume() {
           if (off.x * off.x + off.y * off.y + off.z * off.z > radius * radius) continue;
           // One voxel in a hundred is missing: bubbles everywhere.
           if (random() % 100 == 0) continue;
-          (*voxels)[static_cast<std::size_t>(volume.geometry.offset({i, j, k}))] = named.id;
+          voxels[static_cast<std::size_t>(volume.geometry.offset({i, j, k}))] = named.id;
         }
       }
     }
   }
-  volume.voxels = std::move(voxels);
+  volume.voxels = std::make_shared<const SharedSlices>(size, voxels);
   return volume;
 }
 

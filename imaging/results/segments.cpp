@@ -17,6 +17,16 @@ void for_each_voxel(const Segment& segment, const Geometry& geometry, const Visi
   }
 }
 
+// Unless no voxel of it holds `id`.
+void add_slice(std::map<std::int64_t, std::vector<std::uint8_t>>& slices, std::int64_t k,
+               std::span<const std::uint8_t> voxels, std::uint8_t id) {
+  if (std::find(voxels.begin(), voxels.end(), id) == voxels.end()) return;
+  std::vector<std::uint8_t>& inside = slices[k];
+  inside.resize(voxels.size());
+  std::transform(voxels.begin(), voxels.end(), inside.begin(),
+                 [&](std::uint8_t voxel) { return std::uint8_t(voxel == id); });
+}
+
 }  // namespace
 
 std::int64_t Segment::count() const {
@@ -30,14 +40,14 @@ std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const Geometry& geom
                                                             std::uint8_t id) {
   std::map<std::int64_t, std::vector<std::uint8_t>> slices;
   const auto area = static_cast<std::size_t>(geometry.size.x * geometry.size.y);
-  for (std::int64_t k = 0; (static_cast<std::size_t>(k) + 1) * area <= voxels.size(); ++k) {
-    const auto slice = voxels.subspan(static_cast<std::size_t>(k) * area, area);
-    if (std::find(slice.begin(), slice.end(), id) == slice.end()) continue;
-    std::vector<std::uint8_t>& inside = slices[k];
-    inside.resize(area);
-    std::transform(slice.begin(), slice.end(), inside.begin(),
-                   [&](std::uint8_t voxel) { return std::uint8_t(voxel == id); });
-  }
+  for (std::int64_t k = 0; (static_cast<std::size_t>(k) + 1) * area <= voxels.size(); ++k)
+    add_slice(slices, k, voxels.subspan(static_cast<std::size_t>(k) * area, area), id);
+  return slices;
+}
+
+std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const SharedSlices& voxels, std::uint8_t id) {
+  std::map<std::int64_t, std::vector<std::uint8_t>> slices;
+  for (std::int64_t k = 0; k < voxels.size().z; ++k) add_slice(slices, k, voxels.slice(k), id);
   return slices;
 }
 

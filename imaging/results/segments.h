@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/region.h"
+#include "core/shared_slices.h"
 #include "core/volume.h"
 #include "imaging/results/segment_meaning.h"
 
@@ -39,6 +40,8 @@ struct Segments {
 // The slices of the voxels that hold `id` (a mask's hold 1). `voxels` are in voxel order.
 [[nodiscard]] std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(
     const Geometry& geometry, std::span<const std::uint8_t> voxels, std::uint8_t id = 1);
+[[nodiscard]] std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const SharedSlices& voxels,
+                                                                          std::uint8_t id);
 
 // One segment of that mask.
 [[nodiscard]] Segments segments_of(const Mask& mask, const std::string& name);

@@ -142,11 +142,9 @@ Status GlRenderer::set_constraints(const solver::Constraints* constraints) {
   return device_->check("showing walls and anchors");
 }
 
-Status GlRenderer::set_labels(std::span<const std::uint8_t> labels) {
-  if (static_cast<std::int64_t>(labels.size()) != source_->geometry.voxel_count()) {
-    return fail(ErrorKind::usage, "there are {} labels for {} voxels", labels.size(),
-                source_->geometry.voxel_count());
-  }
+Status GlRenderer::set_labels(const SharedSlices& labels) {
+  if (labels.size() != source_->geometry.size)
+    return fail(ErrorKind::usage, "labels are on another grid than the volume");
   TIDEMARK_TRY(device_->make_current());
   return labels_.set_voxels(*device_, labels);
 }

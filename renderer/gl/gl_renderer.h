@@ -49,7 +49,7 @@ class GlRenderer final : public Renderer {
     maps_.set_change(std::move(change));
   }
   Status set_constraints(const solver::Constraints* constraints) override;
-  Status set_labels(std::span<const std::uint8_t> labels) override;
+  Status set_labels(const SharedSlices& labels) override;
   Status set_label_colours(std::span<const LabelColour> colours) override;
 
   using Renderer::draw;

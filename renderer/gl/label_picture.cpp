@@ -2,15 +2,31 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "renderer/label_share.h"
+#include <utility>
 
 namespace tidemark::renderer {
+namespace {
+
+Result<gpu::Texture3D> texture_of(gpu::Device& device, gpu::TexelFormat format, const SharedSlices& values,
+                                  std::string_view label) {
+  const std::vector<std::uint8_t> voxels = values.voxels();
+  return gpu::Texture3D::create(device, format, values.size(), std::as_bytes(std::span(voxels)), label);
+}
+
+void upload(gpu::Texture3D& texture, const SharedSlices& values, const std::vector<std::int64_t>& slices) {
+  const Index3 size = values.size();
+  std::vector<std::uint8_t> slice(static_cast<std::size_t>(size.x * size.y));
+  for (const std::int64_t k : slices) {
+    values.read(k, slice);
+    texture.upload({0, 0, k}, {size.x, size.y, 1}, std::as_bytes(std::span(slice)));
+  }
+}
+
+}  // namespace
+
 Result<LabelPicture> LabelPicture::create(gpu::Device& device, const solver::PageLayout& layout) {
   LabelPicture picture;
-  picture.layout_ = layout;
-  picture.pages_ = LabelPages(layout);
+  picture.volume_ = LabelVolume(layout);
   const std::vector<std::uint8_t> none(1);
   auto voxels = gpu::Texture3D::create(device, gpu::TexelFormat::r8ui, Index3(1),
                                        std::as_bytes(std::span(none)), "no labels");
@@ -35,37 +51,41 @@ Result<LabelPicture> LabelPicture::create(gpu::Device& device, const solver::Pag
   return picture;
 }
 
-Status LabelPicture::set_voxels(gpu::Device& device, std::span<const std::uint8_t> voxels) {
-  const Index3 size = layout_.volume_size();
-  auto texture =
-      gpu::Texture3D::create(device, gpu::TexelFormat::r8ui, size, std::as_bytes(voxels), "labels");
-  if (!texture) return pass_on(texture);
-  voxels_ = std::move(*texture);
-  labels_.assign(voxels.begin(), voxels.end());
-  pages_.set_voxels(voxels);
-  upload_pages();
-  return {};
+Status LabelPicture::set_voxels(gpu::Device& device, const SharedSlices& voxels) {
+  if (!has_voxels_ && voxels.empty()) return {};
+  if (!has_voxels_) {
+    auto texture = texture_of(device, gpu::TexelFormat::r8ui, voxels, "labels");
+    if (!texture) return pass_on(texture);
+    voxels_ = std::move(*texture);
+  }
+  const std::vector<std::int64_t> changed = volume_.set_voxels(voxels);
+  if (std::exchange(has_voxels_, true)) upload(voxels_, voxels, changed);
+  if (!changed.empty()) upload_pages();
+  return device.check("showing labels");
 }
 
 Status LabelPicture::prepare_borders(gpu::Device& device) {
-  if (labels_.empty()) return {};
-  const std::vector<std::uint8_t> shares = label_shares(layout_, labels_, pages_.mixed());
-  auto texture = gpu::Texture3D::create(device, gpu::TexelFormat::r8, layout_.volume_size(),
-                                        std::as_bytes(std::span(shares)), "borders of labels");
+  if (!has_voxels_) return {};
+  const std::vector<std::int64_t> changed = volume_.prepare_borders();
+  if (has_shares_) {
+    upload(shares_, volume_.shares(), changed);
+    return device.check("showing borders of labels");
+  }
+  auto texture = texture_of(device, gpu::TexelFormat::r8, volume_.shares(), "borders of labels");
   if (!texture) return pass_on(texture);
   shares_ = std::move(*texture);
-  labels_ = {};
+  has_shares_ = true;
   return {};
 }
 
 void LabelPicture::set_colours(std::span<const LabelColour> colours) {
   colours_.upload({0, 0, static_cast<std::int64_t>(colours.size()), 1}, std::as_bytes(colours));
-  pages_.set_colours(colours);
+  volume_.set_colours(colours);
   upload_pages();
 }
 
 void LabelPicture::upload_pages() {
-  if (pages_.has_voxels()) page_buffer_.upload_values<std::int32_t>(0, pages_.pages());
+  if (volume_.has_voxels()) page_buffer_.upload_values<std::int32_t>(0, pages().pages());
 }
 
 void LabelPicture::set_uniforms(const gpu::Program& program, const Units& units) const {
@@ -82,7 +102,7 @@ void LabelPicture::set_uniforms(const gpu::Program& program, const Units& units)
   for (std::size_t word = 0; word < kLabels / kBits; ++word) {
     unsigned bits = 0;
     for (std::size_t bit = 0; bit < kBits; ++bit) {
-      bits |= pages_.is_seen(static_cast<int>(kBits * word + bit)) ? 1U << bit : 0U;
+      bits |= pages().is_seen(static_cast<int>(kBits * word + bit)) ? 1U << bit : 0U;
     }
     program.set(fmt::format("visible_labels[{}]", word).c_str(), bits);
   }

@@ -7,7 +7,7 @@
 
 #include "gpu/program.h"
 #include "gpu/texture.h"
-#include "renderer/label_pages.h"
+#include "renderer/label_volume.h"
 #include "solver/paging/page_layout.h"
 
 namespace tidemark::renderer {
@@ -19,12 +19,12 @@ class LabelPicture {
   // At first no voxel has a label, and all labels are seen in their first colours (core/label_colour.h).
   static Result<LabelPicture> create(gpu::Device& device, const solver::PageLayout& layout);
 
-  // In voxel order. Fails (ErrorKind::capability) when memory is short.
-  Status set_voxels(gpu::Device& device, std::span<const std::uint8_t> voxels);
+  // Fails (ErrorKind::capability) when memory is short.
+  Status set_voxels(gpu::Device& device, const SharedSlices& voxels);
   // Of the labels from 0 on.
   void set_colours(std::span<const LabelColour> colours);
 
-  [[nodiscard]] const LabelPages& pages() const { return pages_; }
+  [[nodiscard]] const LabelPages& pages() const { return volume_.pages(); }
 
   // Makes sure that render/labels.glsl finds what it looks at: slices need less. Fails
   // (ErrorKind::capability) when memory is short.
@@ -39,12 +39,12 @@ class LabelPicture {
  private:
   void upload_pages();
 
-  solver::PageLayout layout_;
-  std::vector<std::uint8_t> labels_;  // by voxel, until their borders are known
-  gpu::Texture3D voxels_;
+  LabelVolume volume_;
+  gpu::Texture3D voxels_;  // one voxel until there are labels; so are the shares until borders are needed
   gpu::Texture3D shares_;
+  bool has_voxels_ = false;
+  bool has_shares_ = false;
   gpu::Texture2D colours_;
-  LabelPages pages_;
   gpu::Buffer page_buffer_;
   gpu::BufferTexture page_texture_;
 };

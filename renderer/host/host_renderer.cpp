@@ -75,11 +75,9 @@ Status HostRenderer::set_constraints(const solver::Constraints* constraints) {
   return {};
 }
 
-Status HostRenderer::set_labels(std::span<const std::uint8_t> labels) {
-  if (std::ssize(labels) != volume_->geometry.voxel_count()) {
-    return fail(ErrorKind::usage, "there are {} labels for {} voxels", labels.size(),
-                volume_->geometry.voxel_count());
-  }
+Status HostRenderer::set_labels(const SharedSlices& labels) {
+  if (labels.size() != volume_->geometry.size)
+    return fail(ErrorKind::usage, "labels are on another grid than the volume");
   scene_.labels.set_voxels(labels);
   return {};
 }

@@ -26,7 +26,7 @@ class HostRenderer final : public Renderer {
   void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) override;
   void set_change(std::shared_ptr<const solver::SpeedFunction> change) override;
   Status set_constraints(const solver::Constraints* constraints) override;
-  Status set_labels(std::span<const std::uint8_t> labels) override;
+  Status set_labels(const SharedSlices& labels) override;
   Status set_label_colours(std::span<const LabelColour> colours) override;
 
   using Renderer::draw;

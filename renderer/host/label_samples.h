@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/label_pages.h"
+#include "renderer/label_volume.h"
 
 namespace tidemark::renderer {
 
@@ -13,14 +13,13 @@ class LabelSamples {
  public:
   explicit LabelSamples(const solver::PageLayout& layout);
 
-  // In voxel order; they are copied.
-  void set_voxels(std::span<const std::uint8_t> voxels);
+  void set_voxels(const SharedSlices& voxels) { volume_.set_voxels(voxels); }
   // Of the labels from 0 on.
   void set_colours(std::span<const LabelColour> colours);
-  // Works out where borders are between voxels, which pictures in 3D need. Once for each set_voxels().
-  void prepare_borders();
+  // Works out where borders are between voxels, which pictures in 3D need.
+  void prepare_borders() { volume_.prepare_borders(); }
 
-  [[nodiscard]] const LabelPages& pages() const { return pages_; }
+  [[nodiscard]] const LabelPages& pages() const { return volume_.pages(); }
   // Red, green and blue, 0 to 1, and opacity.
   [[nodiscard]] glm::vec3 colour(int label) const;
   [[nodiscard]] float opacity(int label) const;
@@ -38,13 +37,10 @@ class LabelSamples {
     int other;    // the nearest voxel's that has another one
   };
   [[nodiscard]] Share share_of(int label, glm::vec3 position) const;
-  [[nodiscard]] std::size_t offset_of(glm::ivec3 voxel) const;  // clamped
+  [[nodiscard]] Index3 clamped(glm::ivec3 voxel) const;
 
-  solver::PageLayout layout_;
   glm::ivec3 size_{0};
-  LabelPages pages_;
-  std::vector<std::uint8_t> voxels_;
-  std::vector<std::uint8_t> shares_;  // label_shares(); empty until borders are needed
+  LabelVolume volume_;
   std::vector<LabelColour> colours_;
 };
 

@@ -21,11 +21,7 @@ struct SeenCase {
   explicit SeenCase(const document::Case& document)
       : level_set(document.level_set()),
         labels(document.labels().list()),
-        label_voxels(document.labels().voxels().begin(), document.labels().voxels().end()) {
-    // No voxel has a label, in either way to say so.
-    if (std::all_of(label_voxels.begin(), label_voxels.end(), [](std::uint8_t id) { return id == 0; }))
-      label_voxels.clear();
-  }
+        label_voxels(document.labels().voxels().voxels()) {}
   bool operator==(const SeenCase&) const = default;
 };
 

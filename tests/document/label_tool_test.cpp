@@ -37,10 +37,8 @@ class LabelledCase {
   [[nodiscard]] std::uint8_t liver() const { return liver_; }
   [[nodiscard]] std::uint8_t spleen() const { return spleen_; }
   [[nodiscard]] document::LabelVoxels values() const {
-    return {
-        labels_.geometry(), labels_.list(),
-        std::make_shared<const std::vector<std::uint8_t>>(labels_.voxels().begin(), labels_.voxels().end()),
-        nullptr};
+    return {labels_.geometry(), labels_.list(), std::make_shared<const SharedSlices>(labels_.voxels()),
+            nullptr};
   }
   // The tool's outcome of the liver, applied.
   Status apply(const document::LabelToolUse& use, document::Take take = document::Take::free_voxels) {
@@ -229,7 +227,7 @@ class LabelToolTest : public QObject {
 
   void what_cannot_be_done_is_refused_and_changes_nothing() {
     LabelledCase one;
-    const std::vector<std::uint8_t> before(one.labels().voxels().begin(), one.labels().voxels().end());
+    const std::vector<std::uint8_t> before = one.labels().voxels().voxels();
     const auto refused = [&](const document::LabelToolUse& use, const std::vector<std::uint8_t>& labels) {
       const auto result = document::use_tool(use, labels, one.values());
       return !result && result.error().kind == ErrorKind::usage;
@@ -248,7 +246,7 @@ class LabelToolTest : public QObject {
     QCOMPARE(failure(one.labels().set(locked)), QString());
     QVERIFY(refused(with(LabelTool::grow), {one.liver()}));
     QVERIFY(!one.labels().finish({{one.spleen(), {}, {}}, {one.liver(), {}, {}}}));
-    QVERIFY(std::equal(before.begin(), before.end(), one.labels().voxels().begin()));
+    QVERIFY(one.labels().voxels().voxels() == before);
   }
 };
 

@@ -208,8 +208,7 @@ class LackOfMemoryTest : public QObject {
       const auto document = small_case();
       QCOMPARE(failure(row.before(*document)), QString());
       const auto labels_of = [&] {
-        const auto voxels = document->labels().voxels();
-        return std::pair(document->labels().list(), std::vector<std::uint8_t>(voxels.begin(), voxels.end()));
+        return std::pair(document->labels().list(), document->labels().voxels().voxels());
       };
       const auto labels = labels_of();
       left = place;

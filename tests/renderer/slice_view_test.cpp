@@ -299,8 +299,8 @@ class SliceViewTest : public QObject {
     const auto values =
         sample(geometry, [](glm::dvec3 p) { return p.x >= 16.0 ? (p.y >= 16.0 ? 2.0 : 1.0) : 0.0; });
     const std::vector<std::uint8_t> labels(values.begin(), values.end());
-    QCOMPARE(draw.renderer().set_labels(std::span(labels).first(10)).error().kind, ErrorKind::usage);
-    QCOMPARE(failure(draw.renderer().set_labels(labels)), QString());
+    QCOMPARE(draw.renderer().set_labels(SharedSlices(Index3(20))).error().kind, ErrorKind::usage);
+    QCOMPARE(failure(draw.renderer().set_labels(SharedSlices(geometry.size, labels))), QString());
     renderer::SliceView view;
     view.surface = false;
     view.window = {50.0, 100.0};

@@ -108,8 +108,8 @@ class Listener {
     must(made);
     renderer_ = std::move(*made);
     must(renderer_->set_phi(scene_.phi));
-    std::vector<std::uint8_t> labels(static_cast<std::size_t>(scene_.source->geometry.voxel_count()));
-    labels[0] = 1;
+    SharedSlices labels(scene_.source->geometry.size);
+    labels.fill(0, 1, 1);
     must(renderer_->set_labels(labels));
     renderer_->set_change(std::make_shared<FormulaSpeed>([](glm::dvec3) { return 0.1; }));
   }

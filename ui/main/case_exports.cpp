@@ -26,8 +26,10 @@ Status write_label_file(const document::SessionContents& contents, const std::fi
   Volume volume;
   volume.geometry = contents.geometry;
   std::vector<std::uint16_t> voxels(static_cast<std::size_t>(contents.geometry.voxel_count()));
-  if (contents.label_voxels)
-    std::copy(contents.label_voxels->begin(), contents.label_voxels->end(), voxels.begin());
+  if (contents.label_voxels) {
+    const std::vector<std::uint8_t> labels = contents.label_voxels->voxels();
+    std::copy(labels.begin(), labels.end(), voxels.begin());
+  }
   volume.voxels = std::move(voxels);
   return imaging::write_volume_file(volume, file);
 }

@@ -115,13 +115,7 @@ void TruthReader::compare_with_label(CaseWindow& window) {
   of_ = &window;
   compare(QString::fromStdString(label->name),
           [grid = proxy.volume().geometry, voxels = proxy.state().label_voxels, id = label->id] {
-            Mask mask{grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.voxel_count()))};
-            if (voxels) {
-              std::transform(voxels->begin(), voxels->end(), mask.voxels.begin(), [id](std::uint8_t one) {
-                return one == id ? std::uint8_t{1} : std::uint8_t{0};
-              });
-            }
-            return mask;
+            return mask_of(voxels ? Region(*voxels, id) : Region(), grid);
           });
 }
 

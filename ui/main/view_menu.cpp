@@ -42,7 +42,7 @@ const document::Label* label_at(const engine::CaseProxy& proxy, glm::dvec3 place
   const Geometry& grid = proxy.volume().geometry;
   const Index3 voxel(glm::round(grid.to_voxel(place_mm)));
   if (!state.label_voxels || !grid.contains(voxel)) return nullptr;
-  const std::uint8_t id = (*state.label_voxels)[static_cast<std::size_t>(grid.offset(voxel))];
+  const std::uint8_t id = state.label_voxels->at(voxel);
   const auto label = std::find_if(state.labels.begin(), state.labels.end(),
                                   [&](const document::Label& one) { return one.id == id; });
   return label == state.labels.end() ? nullptr : &*label;

@@ -139,7 +139,7 @@ LabelToolControls::LabelToolControls(QWidget* parent) : CaseWidget(parent) {
   form.wide(apply_);
   connect(apply_, &QPushButton::clicked, this, [this] {
     if (!finisher()) return;
-    finisher()->apply(take_);
+    finisher()->apply();
     tool_->setCurrentIndex(0);
     choose_tool();
   });
@@ -218,6 +218,11 @@ void LabelToolControls::set_labels(const std::vector<std::uint8_t>& labels) {
   show_buttons();
 }
 
+void LabelToolControls::set_take(document::Take take) {
+  take_ = take;
+  look_again();
+}
+
 void LabelToolControls::look_again() {
   if (proxy() && tool()) soon_.start();
 }
@@ -229,7 +234,7 @@ void LabelToolControls::look() {
     return say(tr("Add another label and paint the seeds with it."));
   looked_at_ = proxy()->state().label_voxels;
   work_->begin(tr("Preview"));
-  finisher()->begin(use(), labels_);
+  finisher()->begin(use(), labels_, take_);
   show_buttons();
 }
 

@@ -24,7 +24,7 @@ class LabelToolControls : public CaseWidget {
 
   // The labels that the tool works on; the first is the one that was chosen first.
   void set_labels(const std::vector<std::uint8_t>& labels);
-  void set_take(document::Take take) { take_ = take; }
+  void set_take(document::Take take);  // what of others they may take
 
  protected:
   void attach() override;
@@ -53,8 +53,8 @@ class LabelToolControls : public CaseWidget {
   QTimer soon_;
   document::Take take_ = document::Take::free_voxels;
   std::vector<std::uint8_t> labels_;
-  std::shared_ptr<const std::vector<std::uint8_t>> looked_at_;  // the voxels that the preview is of
-  QPointer<engine::LabelFinisher> shown_;                       // to which this is connected
+  std::shared_ptr<const SharedSlices> looked_at_;  // the voxels that the preview is of
+  QPointer<engine::LabelFinisher> shown_;          // to which this is connected
 };
 
 }  // namespace tidemark::ui

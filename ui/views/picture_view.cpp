@@ -118,7 +118,7 @@ Qt::CursorShape PictureView::cursor_at(QPointF /*position*/) const {
 }
 
 void PictureView::ask() {
-  if (isVisible() && width() > 0 && height() > 0) feed_.request(wanted(), physical_size());
+  if (isVisible() && width() > 0 && height() > 0) feed_.request(wanted(), physical_size(), wanted_labels());
 }
 
 void PictureView::follow_display() {

@@ -53,6 +53,8 @@ class PictureView : public QWidget {
 
   // As it is drawn, but for what is painted over it.
   [[nodiscard]] virtual engine::AnyView wanted() const = 0;
+  // Shown in place of the case's labels; null: those.
+  [[nodiscard]] virtual std::shared_ptr<const document::Labels> wanted_labels() const { return nullptr; }
 
  signals:
   void maximise_wanted();

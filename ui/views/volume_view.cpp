@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/label_finisher.h"
 #include "ui/views/next_step.h"
 #include "ui/views/orientation_cube.h"
 #include "ui/views/overlay.h"
@@ -80,6 +81,12 @@ VolumeViewWidget::VolumeViewWidget(engine::CaseProxy& proxy, QWidget* parent)
   setAccessibleName(title());
   auto* next = new NextStep(proxy, *this);
   connect(next, &NextStep::place_wanted, this, &VolumeViewWidget::place_wanted);
+  connect(&proxy.label_finisher(), &engine::LabelFinisher::changed, this, &VolumeViewWidget::ask);
+}
+
+std::shared_ptr<const document::Labels> VolumeViewWidget::wanted_labels() const {
+  const auto& preview = proxy().label_finisher().preview();
+  return preview ? preview->after : nullptr;
 }
 
 renderer::VolumeView VolumeViewWidget::view() const {

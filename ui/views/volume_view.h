@@ -29,6 +29,8 @@ class VolumeViewWidget : public PictureView {
 
  protected:
   [[nodiscard]] engine::AnyView wanted() const override { return view(); }
+  // With what a tool is about to make of them.
+  [[nodiscard]] std::shared_ptr<const document::Labels> wanted_labels() const override;
   void paint_overlay(QPainter& painter) override;
   void find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) override;
   std::unique_ptr<Drag> begin_drag(const Pointer& pressed) override;

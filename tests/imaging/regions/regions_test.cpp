@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/region.h"
+#include "core/shared_slices.h"
 #include "imaging/regions/cut.h"
 #include "imaging/regions/fill_slices.h"
 #include "imaging/regions/islands.h"
@@ -84,11 +85,12 @@ class RegionsTest : public QObject {
       // From labels it takes room for its own voxels alone, and is the same.
       std::vector<std::uint8_t> labels(mask.voxels.size(), 9);
       for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = mask.voxels[i] != 0 ? 7 : labels[i];
-      const Region of_label(labels, 7, grid.size);
+      const SharedSlices slices(grid.size, labels);
+      const Region of_label(slices, 7);
       QVERIFY(of_label == region);
       QVERIFY(of_label.bounds() == region.bounds());
-      QVERIFY(!(Region(labels, 9, grid.size) == region));
-      QVERIFY(Region(labels, 1, grid.size).empty());
+      QVERIFY(!(Region(slices, 9) == region));
+      QVERIFY(Region(slices, 1).empty());
     }
     QVERIFY(Region() == Region());
     QVERIFY(Region().bounds().empty());

@@ -25,7 +25,7 @@ inline ui::LabelsPanel* shown_panel(Desktop& desktop) {
 }
 inline Region region(Desktop& desktop, std::uint8_t label) {
   const auto& voxels = desktop.state().label_voxels;
-  return voxels ? Region(*voxels, label, desktop.proxy().volume().geometry.size) : Region();
+  return voxels ? Region(*voxels, label) : Region();
 }
 
 }  // namespace tidemark::test

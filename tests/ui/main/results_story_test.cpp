@@ -44,7 +44,7 @@ class ResultsStoryTest : public QObject, private ResultsDesktop {
   void a_server_that_keeps_silent_is_given_up_by_a_click();
 
  private:
-  [[nodiscard]] std::vector<std::uint8_t> voxels() { return *desktop_->state().label_voxels; }
+  [[nodiscard]] std::vector<std::uint8_t> voxels() { return desktop_->state().label_voxels->voxels(); }
   void begin(glm::dvec3 middle);
   void segment(glm::dvec3 middle, const char* name, const char* meaning);
   void segment_both();

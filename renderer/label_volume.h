@@ -1,0 +1,45 @@
+// The labels of a volume as renderers read them: by voxel, by page, and their borders between voxels.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/shared_slices.h"
+#include "renderer/label_pages.h"
+#include "solver/paging/page_layout.h"
+
+namespace tidemark::renderer {
+
+// Keeps no copy of the voxels, and works out anew only what other slices than before have a part in.
+class LabelVolume {
+ public:
+  LabelVolume() = default;
+  // At first no voxel has a label, and all labels are seen.
+  explicit LabelVolume(const solver::PageLayout& layout);
+
+  // Of the layout's volume. Returns the slices that differ from before.
+  std::vector<std::int64_t> set_voxels(const SharedSlices& voxels);
+  // Of the labels from 0 on.
+  void set_colours(std::span<const LabelColour> colours) { pages_.set_colours(colours); }
+  // Brings shares() up to date. Returns the slices that may differ from before.
+  std::vector<std::int64_t> prepare_borders();
+
+  [[nodiscard]] bool has_voxels() const { return pages_.has_voxels(); }
+  [[nodiscard]] const SharedSlices& voxels() const { return voxels_; }
+  // For each voxel, how much of what is around it has its own label: the weight in a Gaussian of 1.1 voxels
+  // over 5 voxels an axis, 255 for all of it. Never less than a little above a half, so that where shares are
+  // equal between two voxels is never beyond the middle of either: what is one voxel thick stays. 255 in
+  // pages that hold a single label, or none.
+  [[nodiscard]] const SharedSlices& shares() const { return shares_; }
+  [[nodiscard]] const LabelPages& pages() const { return pages_; }
+
+ private:
+  solver::PageLayout layout_;
+  LabelPages pages_;
+  SharedSlices voxels_;
+  SharedSlices shares_;
+  SharedSlices has_shares_;  // the voxels that shares_ are of
+};
+
+}  // namespace tidemark::renderer
