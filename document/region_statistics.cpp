@@ -2,11 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <variant>
 
 #include "core/typed_volume.h"
 #include "solver/paging/page_rows.h"
 
 namespace tidemark::document {
+namespace {
+
+// Stored; the shift of sums that are added and taken away.
+double some_value(const Volume& volume) {
+  return std::visit([](const auto& stored) { return static_cast<double>(stored[stored.size() / 2]); },
+                    volume.voxels);
+}
+
+}  // namespace
 
 RegionStatistics ValueSums::result(const Volume& volume) const {
   RegionStatistics statistics;
@@ -21,33 +32,49 @@ RegionStatistics ValueSums::result(const Volume& volume) const {
   return statistics;
 }
 
-std::vector<RegionStatistics> statistics_by_label(const Volume& volume, const Labels& labels) {
-  std::vector<ValueSums> sums(256);
+std::vector<RegionStatistics> LabelStatistics::measure(const std::shared_ptr<const Volume>& volume,
+                                                       const SharedSlices& labels) {
+  if (volume_ != volume || measured_.size() != labels.size()) {
+    volume_ = volume;
+    measured_ = SharedSlices(labels.size());
+    ValueSums none;
+    none.shift = some_value(*volume);
+    sums_.assign(256, none);
+  }
+  const auto area = static_cast<std::size_t>(labels.size().x * labels.size().y);
+  const auto id_in = [](std::span<const std::uint8_t> slice, std::size_t i) {
+    return slice.empty() ? std::uint8_t{0} : slice[i];
+  };
   std::visit(
       [&](const auto& stored) {
-        auto value = stored.begin();
-        const Index3 size = labels.geometry().size;
-        for (std::int64_t k = 0; k < size.z; ++k, value += size.x * size.y) {
-          const std::span<const std::uint8_t> ids = labels.voxels().slice(k);
-          for (std::size_t i = 0; i < ids.size(); ++i) {
-            if (ids[i] != 0) sums[ids[i]].add(static_cast<double>(value[static_cast<std::ptrdiff_t>(i)]));
+        for (const std::int64_t k : labels.differing_slices(measured_)) {
+          const std::span<const std::uint8_t> then = measured_.slice(k);
+          const std::span<const std::uint8_t> now = labels.slice(k);
+          const auto values = std::span(stored).subspan(static_cast<std::size_t>(k) * area, area);
+          for (std::size_t i = 0; i < area; ++i) {
+            const std::uint8_t before = id_in(then, i);
+            const std::uint8_t after = id_in(now, i);
+            if (before == after) continue;
+            const auto value = static_cast<double>(values[i]);
+            if (before != 0) sums_[before].take_away(value);
+            if (after != 0) sums_[after].add_to_shift(value);
           }
         }
       },
-      volume.voxels);
+      volume->voxels);
+  measured_ = labels;
   std::vector<RegionStatistics> statistics;
-  for (const ValueSums& one : sums) statistics.push_back(one.result(volume));
+  for (const ValueSums& one : sums_) statistics.push_back(one.result(*volume));
   return statistics;
 }
 
-// Nothing is inside yet. The shift is some value of the volume's: sums of pages are added and taken away.
+// Nothing is inside yet.
 void InsideStatistics::begin(const std::shared_ptr<const Volume>& volume, const solver::Field& phi) {
   volume_ = volume;
   layout_ = phi.layout;
   measured_ = solver::SharedPages(layout_.page_count(), layout_.voxels_per_page());
   sums_ = {};
-  std::visit([&](const auto& stored) { sums_.shift = static_cast<double>(stored[stored.size() / 2]); },
-             volume->voxels);
+  sums_.shift = some_value(*volume);
 }
 
 // With the shift of sums_.

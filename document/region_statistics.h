@@ -17,9 +17,6 @@ struct RegionStatistics {
   double standard_deviation = 0.0;  // of the population
 };
 
-// Of all labels at once, by id (256 entries).
-std::vector<RegionStatistics> statistics_by_label(const Volume& volume, const Labels& labels);
-
 // Sums of stored values. The shift keeps the squares small where all values are far from 0 (Welford's update
 // would divide at every voxel).
 struct ValueSums {
@@ -38,7 +35,27 @@ struct ValueSums {
     sum += d;
     squares += d * d;
   }
+  void take_away(double stored) {
+    --voxels;
+    const double d = stored - shift;
+    sum -= d;
+    squares -= d * d;
+  }
   [[nodiscard]] RegionStatistics result(const Volume& volume) const;
+};
+
+// Of all labels at once, of one state of them after the other: slices that a state shares with the one before
+// are not looked at again.
+class LabelStatistics {
+ public:
+  // By id (256 entries). The labels must be on the volume's grid.
+  std::vector<RegionStatistics> measure(const std::shared_ptr<const Volume>& volume,
+                                        const SharedSlices& labels);
+
+ private:
+  std::shared_ptr<const Volume> volume_;  // null: nothing was measured
+  SharedSlices measured_;
+  std::vector<ValueSums> sums_;  // of 0, nothing
 };
 
 // Of what is inside one copy of a level set after the other: what a copy shares with the one before is not

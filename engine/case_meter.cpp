@@ -70,12 +70,9 @@ Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, boo
   if (thoroughly) {
     wider_range_ = wider_range(evolved);
     inside_ = inside_meter_.measure(document.volume(), *phi_);
-    if (label_revision_ != document.labels().revision() || by_label_.empty()) {
-      by_label_ = document::statistics_by_label(*document.volume(), document.labels());
-      label_revision_ = document.labels().revision();
-    }
+    const auto by_label = label_meter_.measure(document.volume(), document.labels().voxels());
     labels_.clear();
-    for (const document::Label& label : document.labels().list()) labels_.push_back(by_label_[label.id]);
+    for (const document::Label& label : document.labels().list()) labels_.push_back(by_label[label.id]);
   }
   thorough_ = thoroughly;
   return {};

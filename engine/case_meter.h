@@ -69,8 +69,7 @@ class CaseMeter {
   solver::SurfaceStatistics surface_;
   document::InsideStatistics inside_meter_;
   document::RegionStatistics inside_;
-  std::vector<document::RegionStatistics> by_label_;  // by id, as of label_revision_
-  std::uint64_t label_revision_ = 0;
+  document::LabelStatistics label_meter_;
   std::vector<document::RegionStatistics> labels_;
   std::optional<TruthOverlap> overlap_;  // where there is a truth
   std::optional<double> dice_;

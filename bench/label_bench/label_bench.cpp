@@ -1,8 +1,8 @@
-// How long the tools that finish labels take, and how well slices are filled.
+// How long the tools that finish labels take, and a dab of their brush, and how well slices are filled.
 //
-//   label_bench                    20 labels on 512 x 512 x 600 voxels, each tool on the largest one and on
-//   all label_bench FILE [LABEL]       every fourth slice of a label given, along each axis: Dice of what was
-//   filled
+// `label_bench` has 20 labels on 512 x 512 x 600 voxels; each tool works on the largest one and on all.
+// `label_bench FILE [LABEL]` takes every fourth slice of a label, along each axis, and prints Dice of what is
+// filled.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -10,8 +10,10 @@
 #include <random>
 
 #include "document/label_tool.h"
+#include "document/region_statistics.h"
 #include "imaging/load_study.h"
 #include "imaging/regions/fill_slices.h"
+#include "renderer/label_volume.h"
 
 using namespace tidemark;
 
@@ -102,6 +104,63 @@ void time_tools() {
   }
 }
 
+// Dabs of 10 mm at the border of the large ball: what the engine does of them, and the renderer for 3D.
+void time_dabs() {
+  const document::LabelVoxels from = labelled_volume();
+  document::Labels labels(from.geometry);
+  if (!labels.assign(from.list, *from.voxels)) std::exit(1);
+  Volume source;
+  source.geometry = from.geometry;
+  source.voxels = std::vector<std::int16_t>(static_cast<std::size_t>(from.geometry.voxel_count()));
+  const auto volume = std::make_shared<const Volume>(std::move(source));
+  document::LabelStatistics statistics;
+  renderer::LabelVolume shown(solver::PageLayout(from.geometry.size, solver::kDefaultPageShape));
+  const auto show = [&] {
+    shown.set_voxels(labels.voxels());
+    shown.prepare_borders();
+  };
+  const Watch first_figures;
+  statistics.measure(volume, labels.voxels());
+  const double first_seconds = first_figures.seconds();
+  const Watch first_look;
+  show();
+  fmt::print("\nfirst figures {:.2f} s, first look {:.2f} s\n", first_seconds, first_look.seconds());
+  fmt::print("{:<28} {:>9} {:>9} {:>9} {:>9}\n", "ms a dab", "brush", "publish", "figures", "look");
+  std::mt19937 random(2);
+  for (int n = 0; n < 10; ++n) {
+    const double angle = random() % 628 * 0.01;
+    const glm::dvec3 place =
+        glm::dvec3(180.0 + 150.0 * std::cos(angle), 180.0 + 150.0 * std::sin(angle), 200.0) /
+        from.geometry.spacing_mm;
+    const Index3 reach(glm::ceil(10.0 / from.geometry.spacing_mm));
+    Region dab(VoxelRange{Index3(place) - reach, Index3(place) + reach + Index3(1)}.widened(
+        Index3(0), from.geometry.size));
+    for (std::int64_t k = 0; k < dab.size().z; ++k) {
+      for (std::int64_t j = 0; j < dab.size().y; ++j) {
+        for (std::int64_t i = 0; i < dab.size().x; ++i) {
+          const Index3 voxel = dab.first() + Index3(i, j, k);
+          if (from.geometry.contains(voxel) &&
+              glm::length((glm::dvec3(voxel) - place) * from.geometry.spacing_mm) <= 10.0)
+            dab.add(voxel);
+        }
+      }
+    }
+    const auto ms = [](const Watch& watch) { return 1000.0 * watch.seconds(); };
+    const Watch brushing;
+    if (!labels.brush({1, {}, dab}, document::Labels::Stroke::adds)) std::exit(1);
+    const double brush = ms(brushing);
+    const Watch publishing;
+    const auto published = std::make_shared<const SharedSlices>(labels.voxels());
+    const double publish = ms(publishing);
+    const Watch measuring;
+    statistics.measure(volume, *published);
+    const double figures = ms(measuring);
+    const Watch looking;
+    show();
+    fmt::print("{:<28} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f}\n", n + 1, brush, publish, figures, ms(looking));
+  }
+}
+
 int fill_slices(const char* file, const char* label) {
   const auto volume = imaging::load_volume(file);
   if (!volume) {
@@ -133,5 +192,6 @@ int fill_slices(const char* file, const char* label) {
 int main(int argc, char** argv) {
   if (argc > 1) return fill_slices(argv[1], argc > 2 ? argv[2] : nullptr);
   time_tools();
+  time_dabs();
   return 0;
 }

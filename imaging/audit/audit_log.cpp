@@ -27,6 +27,7 @@ constexpr Milliseconds kFirstPause(1000);  // after a failure; it doubles
 constexpr Milliseconds kLongestPause(60'000);
 constexpr Milliseconds kLookAgain(200);         // at what another program delivers
 constexpr Milliseconds kUntilNextLook(30'000);  // at what another program has left
+constexpr const char* kDamaged = ".damaged";
 constexpr std::size_t kLongestMessage = std::size_t{1} << 16;
 
 // Signals are for other threads; a peer that hangs up must not end the program.
@@ -135,12 +136,14 @@ bool AuditLog::deliver_all(const std::stop_token& stop) {
     if (spool_.waiting().empty()) return true;
     const FileLock lock = FileLock::take(spool_.folder() / "lock", FileLock::Missing::make);
     if (!lock) return false;
-    const std::vector<fs::path> waiting = spool_.waiting();
-    for (const fs::path& file : waiting) {
+    for (const fs::path& file : spool_.waiting()) {
       if (stop.stop_requested()) return false;
       const auto message = read_text_file(file, kLongestMessage);
-      const Status delivered = message ? destination_->deliver(*message, stop) : pass_on(message);
-      if (!delivered) {
+      if (!message) {
+        if (!set_aside(file, message.error())) return false;
+        continue;
+      }
+      if (const Status delivered = destination_->deliver(*message, stop); !delivered) {
         if (!stop.stop_requested()) note_failure(delivered.error());
         return false;
       }
@@ -148,9 +151,24 @@ bool AuditLog::deliver_all(const std::stop_token& stop) {
       fs::remove(file, ignored);
       const std::lock_guard guard(mutex_);
       reason_.clear();
-      is_told_ = false;
     }
+    const std::lock_guard guard(mutex_);
+    is_told_ = false;
   }
+}
+
+// What cannot be read stays in the folder, and holds up no other message. False where it cannot be renamed.
+bool AuditLog::set_aside(const fs::path& file, const Error& reason) {
+  std::error_code failed;
+  fs::rename(file, file.string() + kDamaged, failed);
+  if (failed) {
+    note_failure(reason);
+    return false;
+  }
+  if (tell_)
+    tell_({ErrorKind::input,
+           fmt::format("an audit message cannot be read and is kept beside the others: {}", reason.message)});
+  return true;
 }
 
 void AuditLog::note_failure(const Error& error) {

@@ -52,6 +52,7 @@ class AuditLog final : public AuditSink {
            std::unique_ptr<AuditDestination> destination, Tell tell);
   void deliver(const std::stop_token& stop);
   bool deliver_all(const std::stop_token& stop);
+  bool set_aside(const std::filesystem::path& file, const Error& reason);
   void note_failure(const Error& error);
   void wake() const;
 

@@ -248,9 +248,18 @@ class LabelsTest : public QObject {
     }
     const double mean = sum / 125.0;
     const double deviation = std::sqrt(squares / 125.0 - mean * mean);
-    const std::vector<document::RegionStatistics> all = document::statistics_by_label(volume, labels);
-    QCOMPARE(all.size(), std::size_t{256});
     const auto shared = std::make_shared<const Volume>(volume);
+    // Of other labels first, too.
+    document::Labels others(volume.geometry);
+    const std::uint8_t other = others.add("other").value();
+    QCOMPARE(failure(others.accept(box({0, 0, 0}, {9, 9, 6}), other)), QString());
+    const std::uint8_t third = others.add("third").value();
+    QCOMPARE(failure(others.accept(box({0, 0, 7}, {9, 9, 9}), third)), QString());
+    document::LabelStatistics of_labels;
+    QCOMPARE(of_labels.measure(shared, others.voxels())[other].voxels, std::int64_t{700});
+    const std::vector<document::RegionStatistics> all = of_labels.measure(shared, labels.voxels());
+    QCOMPARE(all.size(), std::size_t{256});
+    QCOMPARE(all[third].voxels, std::int64_t{0});
     document::InsideStatistics inside;
     // Of another surface first: what it does not share with the mask's is taken away again.
     inside.measure(shared, surface_of(mask_of(box({0, 0, 0}, {9, 9, 9}), volume.geometry)));

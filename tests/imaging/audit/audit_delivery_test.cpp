@@ -7,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "core/atomic_file.h"
 #include "core/stopwatch.h"
 #include "core/user_folders.h"
 #include "imaging/audit/audit_log.h"
@@ -186,6 +187,23 @@ class AuditDeliveryTest : public QObject {
   }
 
   // What the server's machine has taken counts as delivered: syslog knows no receipts.
+  void a_message_that_cannot_be_read_holds_no_other_up() {
+    const SyslogServer server;
+    std::filesystem::create_directories(spool());
+    const auto damaged = spool() / "00000000000000000001-1.msg";
+    QVERIFY(write_file(damaged, std::string(100'000, 'x')));  // longer than any message is
+    Notices notices;
+    const auto log = start(to(server.server()), notices.tell());
+    for (int i = 0; i < 3; ++i) open_study(*log, i);
+    log->finish(seconds(10));
+    QCOMPARE(opened(server.wait_for(5)), up_to(3));
+    // It is kept beside the others' way, and told once.
+    QCOMPARE(waiting(), std::size_t{0});
+    QVERIFY(std::filesystem::exists(damaged.string() + ".damaged"));
+    QCOMPARE(notices.all().size(), 1);
+    QVERIFY2(notices.all().front().contains("00000000000000000001-1.msg"), qPrintable(notices.all().front()));
+  }
+
   void a_server_that_reads_nothing_holds_nobody_up() {
     auto silent =
         std::make_unique<SyslogServer>(SyslogServer::Way::tcp, 0, SyslogServer::Manner::never_reads);

@@ -60,6 +60,8 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   const Geometry& grid = desktop.proxy().volume().geometry;
   const Region before = region(desktop, 1);
   const QImage without = desktop.view<ui::SliceViewWidget>("Axial")->grab_picture();
+  auto* solid = desktop.view<ui::VolumeViewWidget>();
+  const QImage solid_before = solid->grab_picture();
 
   choose(panel, "Tool", "Grow");
   type_amount(panel, "4,5");  // either separator is understood
@@ -68,12 +70,16 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   // Slices show it, and nothing is changed yet.
   QVERIFY(region(desktop, 1) == before);
   QVERIFY(difference(desktop.view<ui::SliceViewWidget>("Axial")->grab_picture(), without) > 0.0005);
+  const QImage solid_preview = solid->grab_picture();
+  QVERIFY(difference(solid_preview, solid_before) > 0.01);
   const Region wanted = imaging::grown(before, grid, 4.5).value();
   QVERIFY(desktop.proxy().label_finisher().preview()->regions.front().region == wanted);
   click(desktop, panel, "Apply to labels");
   QVERIFY(region(desktop, 1) == wanted);
   QVERIFY(!desktop.proxy().label_finisher().preview());
   QCOMPARE(desktop.state().undo_text, QString("finishing of Label 1"));
+  // 3D has shown what has come of it.
+  QVERIFY(difference(solid->grab_picture(), solid_preview) < 0.0005);
   desktop.screenshot("finish-1-grown");
 
   choose(panel, "Tool", "Split at the clip plane");
@@ -88,6 +94,7 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   desktop.wait_until_idle();
   QVERIFY(region(desktop, 1) == before);
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  QVERIFY(difference(solid->grab_picture(), solid_before) < 0.0005);
 
   // What cannot be done is said, and nothing is applied.
   choose(panel, "Tool", "Fill between slices");
