@@ -35,6 +35,8 @@ ReaderTable::ReaderTable(const std::vector<Column>& columns, const QString& name
     auto* heading = new QTableWidgetItem(is.heading);
     heading->setToolTip(is.tip);
     setHorizontalHeaderItem(column, heading);
+    horizontalHeader()->setSectionResizeMode(
+        column, is.decimals ? QHeaderView::ResizeToContents : QHeaderView::Stretch);
   }
   setAccessibleName(name);
   setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -46,7 +48,6 @@ ReaderTable::ReaderTable(const std::vector<Column>& columns, const QString& name
   verticalHeader()->setDefaultSectionSize(fontMetrics().height() + kSpace);
   verticalHeader()->hide();
   horizontalHeader()->setHighlightSections(false);
-  horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   sortByColumn(sorted_by, Qt::AscendingOrder);
   setSortingEnabled(true);
 }
@@ -62,7 +63,8 @@ void ReaderTable::add_row(const QStringList& names, const std::vector<std::optio
     setItem(row, column++, item);
   }
   for (const std::optional<double>& number : numbers) {
-    setItem(row, column, new NumberItem(number, columns_[static_cast<std::size_t>(column)].decimals));
+    setItem(row, column,
+            new NumberItem(number, columns_[static_cast<std::size_t>(column)].decimals.value_or(0)));
     ++column;
   }
   setSortingEnabled(true);

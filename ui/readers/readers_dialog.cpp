@@ -24,7 +24,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr QSize kDialogSize(1020, 580);
+constexpr QSize kDialogSize(1180, 600);
 constexpr int kReaderListWidth = 240;
 constexpr int kShareDecimals = 3;   // decimals of shares of 1
 constexpr int kAmountDecimals = 2;  // of ml and mm
@@ -178,6 +178,7 @@ void ReadersDialog::connect_comparison() {
   });
   connect(&comparison_, &engine::JobRunner::cancelled, this, [this] {
     waiting_.clear();
+    problems_.clear();
     rest(tr("Cancelled."));
   });
 }
