@@ -3,16 +3,18 @@
 #include <memory>
 #include <optional>
 
-#include "app/cli/file_regions.h"
 #include "app/cli/outputs.h"
 #include "app/cli/program.h"
 #include "app/cli/study_input.h"
 #include "document/comparison.h"
+#include "document/file_regions.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/regions/staple.h"
 
 namespace tidemark::cli {
 namespace {
+
+using document::FileRegions;
 
 constexpr const char* kSummary = "Compares segmentations: overlap, volumes and distances";
 constexpr const char* kDescription =
@@ -50,8 +52,8 @@ Json to_json(const Row& row) {
   const auto ml = [&](std::int64_t voxels) { return static_cast<double>(voxels) * comparison.voxel_ml; };
   Json object;
   if (!row.label.empty()) object["label"] = row.label;
-  object["a"] = row.reader->file;
-  object["b"] = row.other->file;
+  object["a"] = row.reader->file.string();
+  object["b"] = row.other->file.string();
   object["dice"] = comparison.dice();
   object["jaccard"] = comparison.jaccard();
   object["voxels_a"] = comparison.voxels;
@@ -76,7 +78,7 @@ void say(Console& console, const std::vector<Row>& rows, bool names_files) {
     const auto& distance = comparison.distance;
     const auto mm = [&](double value) { return distance ? fmt::format("{:.3f}", value) : std::string("-"); };
     const std::string name = row.label.empty() ? "mask" : row.label;
-    if (names_files) console.say("{} and {}", row.reader->file, row.other->file);
+    if (names_files) console.say("{} and {}", row.reader->file.string(), row.other->file.string());
     console.say("{:<24} {:>7.4f} {:>8.4f} {:>10.3f} {:>10.3f} {:>9} {:>9} {:>9}", name, comparison.dice(),
                 comparison.jaccard(), static_cast<double>(comparison.voxels) * comparison.voxel_ml,
                 static_cast<double>(comparison.other_voxels) * comparison.voxel_ml,
@@ -120,7 +122,7 @@ Result<Json> estimate(const std::vector<FileRegions>& readers, const Geometry& g
                       Outputs& outputs, Console& console) {
   std::vector<Region> regions;
   for (const FileRegions& reader : readers) regions.push_back(reader.list.front().second);
-  auto estimated = imaging::estimate_truth(regions, grid);
+  auto estimated = imaging::estimate_truth(regions, grid, console.progress());
   if (!estimated) return pass_on(estimated);
   const Mask mask = mask_of(estimated->region, grid);
   Status staged = outputs.stage(
@@ -130,13 +132,13 @@ Result<Json> estimate(const std::vector<FileRegions>& readers, const Geometry& g
   object["volume_ml"] = static_cast<double>(estimated->region.count()) * grid.voxel_volume_ml();
   for (std::size_t n = 0; n < readers.size(); ++n) {
     const imaging::ReaderQuality& quality = estimated->readers[n];
-    const double overlap = dice(regions[n], estimated->region);
-    object["readers"].push_back({{"file", readers[n].file},
+    const std::string name = readers[n].file.string();
+    object["readers"].push_back({{"file", name},
                                  {"sensitivity", quality.sensitivity},
                                  {"specificity", quality.specificity},
-                                 {"dice", overlap}});
-    console.say("STAPLE     {}: sensitivity {:.4f}, specificity {:.4f}, Dice {:.4f}", readers[n].file,
-                quality.sensitivity, quality.specificity, overlap);
+                                 {"dice", quality.dice}});
+    console.say("STAPLE     {}: sensitivity {:.4f}, specificity {:.4f}, Dice {:.4f}", name,
+                quality.sensitivity, quality.specificity, quality.dice);
   }
   return object;
 }
@@ -166,12 +168,13 @@ Status run(Program& program, const CompareOptions& options) {
   }
   std::vector<FileRegions> readers;
   for (const std::string& file : options.files) {
-    auto reader = read_regions(file, options.labels, grid, console);
+    auto reader = document::read_regions(file, options.labels, grid, console.progress());
     if (!reader && !readers.empty() && options.grid.empty() && reader.error().kind == ErrorKind::input &&
         std::filesystem::exists(file))
       return fail(ErrorKind::input, "{} (--grid STUDY compares on the voxels of a study)",
                   reader.error().message);
     if (!reader) return pass_on(reader);
+    for (const std::string& change : reader->changes) console.warn(file + ": " + change);
     readers.push_back(std::move(*reader));
     if (console.interrupted()) return cancelled_error();
   }

@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include "app/cli/file_regions.h"
 #include "app/cli/image_files.h"
 #include "app/cli/outputs.h"
 #include "app/cli/program.h"
@@ -11,6 +10,7 @@
 #include "core/csv.h"
 #include "core/json/json_field.h"
 #include "core/text_file.h"
+#include "document/file_regions.h"
 #include "document/measure_codes.h"
 #include "document/result_files.h"
 #include "imaging/results/key_images.h"
@@ -201,13 +201,13 @@ Result<std::vector<document::MeasuredImage>> images_on(const Geometry& grid, Vol
   return images;
 }
 
-Result<std::vector<Row>> measure_all(const FileRegions& regions, const Geometry& grid,
+Result<std::vector<Row>> measure_all(const document::FileRegions& regions, const Geometry& grid,
                                      const std::vector<document::MeasuredImage>& images, Console& console) {
   std::vector<Row> rows;
   for (std::size_t index = 0; index < regions.list.size(); ++index) {
     const auto& [label, region] = regions.list[index];
     if (region.empty()) {
-      console.warn(fmt::format("{}: {} is empty", regions.file, label.empty() ? "the mask" : label));
+      console.warn(fmt::format("{}: {} is empty", regions.file.string(), label.empty() ? "the mask" : label));
       continue;
     }
     auto measures = document::measure(region, grid, images, nullptr, console.progress());
@@ -299,8 +299,9 @@ Status run(Program& program, const MeasureOptions& options) {
   TIDEMARK_TRY(stage_key_images(*study, options, outputs, console.progress()));
   const std::string modality = study->volume.modality;
   std::optional<Geometry> grid = study->volume.geometry;
-  const auto regions = read_regions(options.file, options.labels, grid, console);
+  const auto regions = document::read_regions(options.file, options.labels, grid, console.progress());
   if (!regions) return pass_on(regions);
+  for (const std::string& change : regions->changes) console.warn(options.file + ": " + change);
   const auto images = images_on(*grid, std::move(study->volume), options, console);
   if (!images) return pass_on(images);
   const auto rows = measure_all(*regions, *grid, *images, console);

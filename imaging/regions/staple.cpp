@@ -29,7 +29,8 @@ ReaderImage::Pointer image_of(const Region& region, const VoxelRange& box) {
 
 }  // namespace
 
-Result<TruthEstimate> estimate_truth(const std::vector<Region>& readers, const Geometry& grid) {
+Result<TruthEstimate> estimate_truth(const std::vector<Region>& readers, const Geometry& grid,
+                                     const Progress& progress) {
   if (readers.size() < 2)
     return fail(ErrorKind::usage, "an estimate of the truth needs at least two readers");
   VoxelRange around{grid.size, Index3(0)};
@@ -46,7 +47,11 @@ Result<TruthEstimate> estimate_truth(const std::vector<Region>& readers, const G
   for (std::size_t n = 0; n < readers.size(); ++n)
     filter->SetInput(static_cast<unsigned>(n), image_of(readers[n], box));
   filter->SetForegroundValue(1);
+  filter->AddObserver(itk::IterationEvent(), [&](const itk::EventObject&) {
+    if (progress.cancelled()) filter->AbortGenerateDataOn();
+  });
   filter->Update();
+  if (progress.cancelled()) return cancelled_error();
 
   TruthEstimate estimate{Region(box), {}};
   const double* likelihood = filter->GetOutput()->GetBufferPointer();
@@ -57,8 +62,10 @@ Result<TruthEstimate> estimate_truth(const std::vector<Region>& readers, const G
       }
     }
   }
-  for (unsigned n = 0; n < readers.size(); ++n)
-    estimate.readers.push_back({filter->GetSensitivity(n), filter->GetSpecificity(n)});
+  for (unsigned n = 0; n < readers.size(); ++n) {
+    estimate.readers.push_back(
+        {filter->GetSensitivity(n), filter->GetSpecificity(n), dice(readers[n], estimate.region)});
+  }
   return estimate;
 }
 

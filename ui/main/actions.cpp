@@ -98,6 +98,8 @@ void Actions::make_files() {
                             tr("Dice and distances to a label as it is now, while the surface moves"));
   stop_comparing = make("stop-comparing", nullptr, tr("St&op comparing"), {}, true,
                         tr("Go back to the phantom's own truth, or to none"));
+  compare_readers = make("compare-readers", nullptr, tr("Compare &readers…"), {}, true,
+                         tr("Segmentations of several readers each with each, and an estimate of the truth"));
   add_image = make("add-image", "add", tr("Add ima&ge file…"), {}, true,
                    tr("Show another image, such as PET over CT, on the slices of this case"));
   add_series = make("add-series", nullptr, tr("Add series of the st&udy…"), {}, true,

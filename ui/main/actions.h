@@ -39,6 +39,7 @@ class Actions : public QObject {
   QAction* compare_with_mask;
   QAction* compare_with_label;
   QAction* stop_comparing;
+  QAction* compare_readers;
   QAction* save;
   QAction* save_as;
   QAction* export_mask;

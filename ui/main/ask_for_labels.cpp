@@ -1,6 +1,5 @@
 #include "ui/main/ask_for_labels.h"
 
-#include <QFileDialog>
 #include <QPointer>
 #include <utility>
 
@@ -11,17 +10,20 @@
 
 namespace tidemark::ui {
 
-void ask_for_labels(MainWindow& window, CaseWindow& of, const QString& title,
-                    std::function<void(CaseWindow& of, const QString& file)> take) {
+void ask_for_labels(QWidget& parent, CaseWindow& of, const QString& title,
+                    std::function<void(CaseWindow& of, const QString& file)> take,
+                    QFileDialog::FileMode mode) {
   auto* dialog =
-      new QFileDialog(&window, title, settings::save_folder().get(),
+      new QFileDialog(&parent, title, settings::save_folder().get(),
                       MainWindow::tr("Masks, label maps and segmentations (*.dcm %1);;All files (*)")
                           .arg(QLatin1String(kVolumePatterns)));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setFileMode(QFileDialog::ExistingFile);
-  QObject::connect(dialog, &QFileDialog::fileSelected, &window,
-                   [of = QPointer(&of), take = std::move(take)](const QString& file) {
-                     if (of) take(*of, file);
+  dialog->setFileMode(mode);
+  QObject::connect(dialog, &QFileDialog::filesSelected, &parent,
+                   [of = QPointer(&of), take = std::move(take)](const QStringList& files) {
+                     for (const QString& file : files) {
+                       if (of) take(*of, file);
+                     }
                    });
   dialog->open();
 }

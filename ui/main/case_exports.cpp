@@ -163,6 +163,12 @@ void CaseExports::write_statistics(CaseWindow& window, const QString& file) {
                [csv = to_csv(window.proxy()), path = path_of(file)] { return write_file(path, csv); });
 }
 
+void CaseExports::export_comparison(CaseWindow& window, const std::string& csv) {
+  const QString file = files_.ask_for_file(window, tr("Export the comparison"), tr("Table (*.csv)"));
+  if (file.isEmpty()) return;
+  files_.write(window, file, [csv, path = path_of(file)] { return write_file(path, csv); });
+}
+
 void CaseExports::export_report(CaseWindow& window) {
   const QString file =
       files_.ask_for_file(window, tr("Write a report"), tr("PDF (*.pdf);;Web page (*.html)"));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <string>
 
 #include "ui/main/case_window.h"
 
@@ -22,6 +23,7 @@ class CaseExports : public QObject {
   void export_statistics(CaseWindow& window);
   void export_report(CaseWindow& window);
   void export_recipe(CaseWindow& window);
+  void export_comparison(CaseWindow& window, const std::string& csv);  // of readers
 
   // The same without asking. The suffix says which format.
   void write_mask(CaseWindow& window, const QString& file);

@@ -8,10 +8,12 @@
 #include "imaging/pacs/configuration.h"
 #include "imaging/results/segments.h"
 #include "ui/main/ask_for_labels.h"
+#include "ui/main/case_exports.h"
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/status_bar.h"
 #include "ui/opening/loading_view.h"
+#include "ui/readers/readers_dialog.h"
 #include "ui/results/deidentify_dialog.h"
 #include "ui/results/send_result_dialog.h"
 #include "ui/results/write_result_dialog.h"
@@ -55,6 +57,7 @@ CaseResults::CaseResults(MainWindow& window)
   with_case(actions.send_result, [this, name = actions.send_result->objectName()](CaseWindow& of) {
     new_dialog<SendResultDialog>(of, name, imaging::pacs_configuration_file());
   });
+  with_case(actions.compare_readers, [this](CaseWindow& of) { compare_readers(of); });
   connect(actions.deidentify, &QAction::triggered, this, &CaseResults::make_anonymous_copies);
 }
 
@@ -70,6 +73,18 @@ void CaseResults::make_anonymous_copies() {
   }
   dialog->raise();
   dialog->activateWindow();
+}
+
+void CaseResults::compare_readers(CaseWindow& window) {
+  auto* dialog = new_dialog<ReadersDialog>(window, window_.actions().compare_readers->objectName());
+  if (!dialog) return;
+  connect(dialog, &ReadersDialog::files_wanted, this, [dialog, of = &window] {
+    ask_for_labels(
+        *dialog, *of, tr("Segmentations of readers"),
+        [dialog](CaseWindow&, const QString& file) { dialog->read(file); }, QFileDialog::ExistingFiles);
+  });
+  connect(dialog, &ReadersDialog::export_wanted, this,
+          [this, of = &window](const std::string& csv) { window_.exports().export_comparison(*of, csv); });
 }
 
 template <class Dialog, class... Arguments>

@@ -1,4 +1,4 @@
-// Results of cases to other systems, and labels from them.
+// Results of cases to other systems, and what comes from others: labels, and segmentations to compare.
 #pragma once
 
 #include <QObject>
@@ -29,6 +29,7 @@ class CaseResults : public QObject {
  private:
   void connect_jobs();
   void make_anonymous_copies();
+  void compare_readers(CaseWindow& window);
   void read(CaseWindow& window, const QString& file, bool only_results);
   void read_next();
   void end_reading(const QString& problem = {});

@@ -17,6 +17,7 @@
 #include "ui/pacs/query_dialog.h"
 #include "ui/pacs/servers_dialog.h"
 #include "ui/panels/registration_dialog.h"
+#include "ui/readers/readers_dialog.h"
 #include "ui/results/deidentify_dialog.h"
 #include "ui/results/result_dialog.h"
 
@@ -38,6 +39,7 @@ QString page_of(const QWidget* widget, const MainWindow& window) {
       return QStringLiteral("panels/") + widget->objectName();
     if (is_one_of<QueryDialog, ServersDialog>(widget)) return QStringLiteral("pacs");
     if (is_one_of<SeriesBrowser, RegistrationDialog>(widget)) return QStringLiteral("opening");
+    if (is_one_of<ReadersDialog>(widget)) return QStringLiteral("measuring");
     if (is_one_of<ResultDialog>(widget)) return QStringLiteral("results");
     if (is_one_of<DeidentifyDialog>(widget)) return QStringLiteral("deidentify");
     if (is_one_of<LessonEditor, LessonTrial>(widget)) return QStringLiteral("lessons");

@@ -33,7 +33,8 @@ void make_file_menu(MainWindow& window, Actions& actions, RecentStudies& recent)
   cohort->addActions({actions.accept_case, actions.reject_case});
   file->addSeparator();
   file->addActions({actions.add_image, actions.add_series, actions.import_labels, actions.compare_with_mask,
-                    actions.compare_with_label, actions.stop_comparing, actions.save, actions.save_as});
+                    actions.compare_with_label, actions.stop_comparing, actions.compare_readers, actions.save,
+                    actions.save_as});
   QMenu* exports = file->addMenu(icon(u"export"), MainWindow::tr("&Export"));
   exports->addActions({actions.export_mask, actions.export_segmentation, actions.export_structure_set,
                        actions.export_mesh, actions.export_label_meshes, actions.export_level_set});

@@ -135,7 +135,7 @@ void RecentStudies::check() {
 }
 
 QMenu* RecentStudies::make_menu(QWidget* parent) {
-  auto* menu = new QMenu(tr("Open &recent"), parent);
+  auto* menu = new QMenu(tr("Open rece&nt"), parent);
   menu->setToolTipsVisible(true);
   connect(this, &RecentStudies::changed, menu, [this, menu] { fill(*menu); });
   connect(menu, &QMenu::aboutToShow, this, &RecentStudies::check);

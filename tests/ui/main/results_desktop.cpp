@@ -55,7 +55,9 @@ bool is_explained(QWidget& dialog) {
         button || qobject_cast<const QComboBox*>(widget) || qobject_cast<const QLineEdit*>(widget);
     const bool is_of_number =
         qobject_cast<const QAbstractSpinBox*>(widget->parentWidget());  // which has a tip
-    if (!is_control || is_of_number || (button && button->text().endsWith("Close"))) continue;
+    if (!is_control || is_of_number || widget->inherits("QTableCornerButton") ||
+        (button && button->text().endsWith("Close")))
+      continue;
     if (!widget->toolTip().isEmpty() && (button || !widget->accessibleName().isEmpty())) continue;
     qWarning("%s “%s”", widget->metaObject()->className(), button ? qPrintable(button->text()) : "");
     return false;

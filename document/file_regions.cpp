@@ -1,11 +1,10 @@
-#include "app/cli/file_regions.h"
+#include "document/file_regions.h"
 
 #include <algorithm>
 
 #include "document/result_files.h"
-#include "imaging/results/results.h"
 
-namespace tidemark::cli {
+namespace tidemark::document {
 namespace {
 
 // A name that is there already gets a number.
@@ -23,25 +22,33 @@ const Region* FileRegions::find(const std::string& name) const {
   return found == list.end() ? nullptr : &found->second;
 }
 
-Result<FileRegions> read_regions(const std::string& file, bool labels, std::optional<Geometry>& grid,
-                                 Console& console) {
+Region FileRegions::all() const {
+  Region all;
+  for (const auto& [name, region] : list) all = united(all, region);
+  return all;
+}
+
+Result<FileRegions> read_regions(const std::filesystem::path& file, bool labels,
+                                 std::optional<Geometry>& grid, const Progress& progress) {
   const Geometry* const wanted = grid ? &*grid : nullptr;
-  FileRegions regions{file, {}};
+  FileRegions regions{file, {}, {}};
   if (!labels) {
-    auto loaded = imaging::load_any_mask(file, wanted, console.progress());
+    auto loaded = imaging::load_any_mask(file, wanted, progress);
     if (!loaded) return pass_on(loaded);
-    for (const std::string& change : loaded->changes) console.warn(fmt::format("{}: {}", file, change));
+    regions.changes = std::move(loaded->changes);
     grid = loaded->mask.geometry;
     regions.list.emplace_back(std::string(), Region(loaded->mask));
     return regions;
   }
-  auto segments = document::read_labels(file, wanted, console.progress());
+  auto segments = read_labels(file, wanted, progress);
   if (!segments) return pass_on(segments);
-  for (const std::string& change : segments->changes) console.warn(fmt::format("{}: {}", file, change));
+  regions.changes = std::move(segments->changes);
   grid = segments->geometry;
-  for (const imaging::Segment& segment : segments->list)
+  for (const imaging::Segment& segment : segments->list) {
+    if (progress.cancelled()) return cancelled_error();
     regions.list.emplace_back(unused_name(regions, segment.name), imaging::region_of(segment, *grid));
+  }
   return regions;
 }
 
-}  // namespace tidemark::cli
+}  // namespace tidemark::document
