@@ -115,7 +115,8 @@ LabelToolControls::LabelToolControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Finish"));
   tool_ = form.choice(
-      tr("Tool"), tr("What is done with the chosen labels. All views show the outcome before it is applied."));
+      tr("Tool"),
+      tr("What is done with the chosen labels. All views show the outcome before it is applied."));
   tool_->addItem(tr("None"));
   for (const ToolText& text : kTools) tool_->addItem(text_of(text.name), static_cast<int>(text.tool));
   connect(tool_, &QComboBox::activated, this, &LabelToolControls::choose_tool);
