@@ -27,20 +27,19 @@ std::vector<LabelColour> first_label_colours() {
   return colours;
 }
 
-std::vector<std::int64_t> layers_around(const solver::PageLayout& layout,
-                                        const std::vector<std::int64_t>& slices, std::int64_t reach) {
-  const std::int64_t depth = layout.page_shape().z;
-  std::vector<bool> is_near(static_cast<std::size_t>(layout.pages().z));
-  for (const std::int64_t k : slices) {
-    const std::int64_t last = std::min(k + reach, layout.volume_size().z - 1) / depth;
-    for (std::int64_t layer = std::max<std::int64_t>(k - reach, 0) / depth; layer <= last; ++layer)
-      is_near[static_cast<std::size_t>(layer)] = true;
+std::vector<std::int64_t> pages_around(const solver::PageLayout& layout, const VoxelRange& box,
+                                       std::int64_t reach) {
+  std::vector<std::int64_t> pages;
+  if (box.empty()) return pages;
+  const VoxelRange around = box.widened(Index3(reach), layout.volume_size());
+  const Index3 low = around.low / layout.page_shape();
+  const Index3 high = (around.high - Index3(1)) / layout.page_shape();
+  for (std::int64_t z = low.z; z <= high.z; ++z) {
+    for (std::int64_t y = low.y; y <= high.y; ++y) {
+      for (std::int64_t x = low.x; x <= high.x; ++x) pages.push_back(layout.page_number({x, y, z}));
+    }
   }
-  std::vector<std::int64_t> layers;
-  for (std::size_t layer = 0; layer < is_near.size(); ++layer) {
-    if (is_near[layer]) layers.push_back(static_cast<std::int64_t>(layer));
-  }
-  return layers;
+  return pages;
 }
 
 LabelPages::LabelPages(const solver::PageLayout& layout) : layout_(layout) {
@@ -48,7 +47,7 @@ LabelPages::LabelPages(const solver::PageLayout& layout) : layout_(layout) {
   visible_.reset(0);
 }
 
-void LabelPages::set_voxels(const SharedSlices& voxels, const std::vector<std::int64_t>& changed) {
+void LabelPages::set_voxels(const SharedSlices& voxels, const VoxelRange& changed) {
   const Index3 size = layout_.volume_size();
   if (sets_.empty()) sets_.assign(static_cast<std::size_t>(layout_.page_count()), LabelSet(1));
   const auto collect = [&](std::int64_t page) {
@@ -70,12 +69,10 @@ void LabelPages::set_voxels(const SharedSlices& voxels, const std::vector<std::i
     }
     sets_[static_cast<std::size_t>(page)] = set;
   };
-  const std::int64_t pages_a_layer = layout_.pages().x * layout_.pages().y;
-  const std::vector<std::int64_t> layers = layers_around(layout_, changed, kFiltered);
+  const std::vector<std::int64_t> pages = pages_around(layout_, changed, kFiltered);
   ThreadPool pool;
-  pool.for_each(std::ssize(layers) * pages_a_layer, 64, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t i = begin; i < end; ++i)
-      collect(layers[static_cast<std::size_t>(i / pages_a_layer)] * pages_a_layer + i % pages_a_layer);
+  pool.for_each(std::ssize(pages), 64, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i) collect(pages[static_cast<std::size_t>(i)]);
   });
   update();
 }

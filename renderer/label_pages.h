@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/region.h"
 #include "core/shared_slices.h"
 #include "renderer/renderer.h"
 #include "solver/paging/page_layout.h"
@@ -18,8 +19,8 @@ class LabelPages {
   // At first no voxel has a label, and all labels are seen.
   explicit LabelPages(const solver::PageLayout& layout);
 
-  // Those slices have other voxels than before.
-  void set_voxels(const SharedSlices& voxels, const std::vector<std::int64_t>& changed);
+  // `changed` is around all voxels that have another label than before.
+  void set_voxels(const SharedSlices& voxels, const VoxelRange& changed);
   // Of the labels from 0 on.
   void set_colours(std::span<const LabelColour> colours);
 
@@ -46,11 +47,9 @@ class LabelPages {
   bool shows_ = false;
 };
 
-// The layers of pages along k, in ascending order, that such slices or others at most `reach` from them are
-// in.
-[[nodiscard]] std::vector<std::int64_t> layers_around(const solver::PageLayout& layout,
-                                                      const std::vector<std::int64_t>& slices,
-                                                      std::int64_t reach);
+// The pages that have a voxel of the box, or one at most `reach` from it along each axis.
+[[nodiscard]] std::vector<std::int64_t> pages_around(const solver::PageLayout& layout, const VoxelRange& box,
+                                                     std::int64_t reach);
 
 // The labels' first colours (core/label_colour.h).
 std::vector<LabelColour> first_label_colours();

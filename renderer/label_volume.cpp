@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
+#include <optional>
+#include <utility>
 
 #include "core/thread_pool.h"
 
@@ -57,6 +59,29 @@ struct Tile {
   }
 };
 
+// A box around the voxels that differ. Slices that both share are not looked at.
+VoxelRange difference_of(const SharedSlices& a, const SharedSlices& b) {
+  const Index3 size = a.size();
+  VoxelRange box{size, Index3(0)};
+  const auto width = static_cast<std::size_t>(size.x);
+  std::vector<std::uint8_t> in_a(width * static_cast<std::size_t>(size.y));
+  std::vector<std::uint8_t> in_b = in_a;
+  for (const std::int64_t k : a.differing_slices(b)) {
+    a.read(k, in_a);
+    b.read(k, in_b);
+    for (std::int64_t j = 0; j < size.y; ++j) {
+      const auto row_a = std::span(in_a).subspan(width * static_cast<std::size_t>(j), width);
+      const auto row_b = std::span(in_b).subspan(width * static_cast<std::size_t>(j), width);
+      const auto first = std::mismatch(row_a.begin(), row_a.end(), row_b.begin()).first;
+      if (first == row_a.end()) continue;
+      const auto last = std::mismatch(row_a.rbegin(), row_a.rend(), row_b.rbegin()).first;
+      box.low = glm::min(box.low, Index3(first - row_a.begin(), j, k));
+      box.high = glm::max(box.high, Index3(row_a.rend() - last, j + 1, k + 1));
+    }
+  }
+  return box.empty() ? VoxelRange() : box;
+}
+
 }  // namespace
 
 LabelVolume::LabelVolume(const solver::PageLayout& layout)
@@ -66,50 +91,49 @@ LabelVolume::LabelVolume(const solver::PageLayout& layout)
       shares_(layout.volume_size(), kAll),
       has_shares_(layout.volume_size()) {}
 
-std::vector<std::int64_t> LabelVolume::set_voxels(const SharedSlices& voxels) {
-  std::vector<std::int64_t> changed = voxels.differing_slices(voxels_);
-  if (changed.empty()) return changed;
+VoxelRange LabelVolume::set_voxels(const SharedSlices& voxels) {
+  const VoxelRange changed = difference_of(voxels, voxels_);
   voxels_ = voxels;
-  pages_.set_voxels(voxels, changed);
+  if (!changed.empty()) pages_.set_voxels(voxels, changed);
   return changed;
 }
 
-std::vector<std::int64_t> LabelVolume::prepare_borders() {
-  const std::int64_t depth = layout_.page_shape().z;
-  const std::int64_t pages_a_layer = layout_.pages().x * layout_.pages().y;
-  const Index3 volume = layout_.volume_size();
-  std::vector<std::int64_t> slices;
-  std::vector<std::int64_t> mixed;
-  std::vector<std::uint8_t*> values(static_cast<std::size_t>(volume.z));
-  for (const std::int64_t layer : layers_around(layout_, voxels_.differing_slices(has_shares_), kReach)) {
-    const std::size_t before = mixed.size();
-    for (std::int64_t page = pages_a_layer * layer; page < pages_a_layer * (layer + 1); ++page) {
-      if (pages_.is_mixed(page)) mixed.push_back(page);
-    }
-    for (std::int64_t k = layer * depth; k < std::min((layer + 1) * depth, volume.z); ++k) {
-      slices.push_back(k);
-      shares_.clear(k);
-      if (mixed.size() > before) values[static_cast<std::size_t>(k)] = shares_.change(k);
-    }
-  }
+VoxelRange LabelVolume::prepare_borders() {
+  const std::vector<std::int64_t> pages = pages_around(layout_, difference_of(voxels_, has_shares_), kReach);
   has_shares_ = voxels_;
+  if (pages.empty()) return {};
+  const Index3 volume = layout_.volume_size();
+  const VoxelRange box{layout_.first_voxel(pages.front()),
+                       layout_.first_voxel(pages.back()) + layout_.valid_shape(pages.back())};
+  // Threads write to slices that are nobody else's. Where no page has a border there need not be one.
+  std::vector<std::uint8_t*> slices(static_cast<std::size_t>(volume.z));
+  for (std::int64_t k = box.low.z; k < box.high.z; ++k) {
+    if (!shares_.slice(k).empty()) slices[static_cast<std::size_t>(k)] = shares_.change(k);
+  }
+  for (const std::int64_t page : pages) {
+    if (!pages_.is_mixed(page)) continue;
+    const std::int64_t first = layout_.first_voxel(page).z;
+    for (std::int64_t k = first; k < first + layout_.valid_shape(page).z; ++k)
+      slices[static_cast<std::size_t>(k)] = shares_.change(k);
+  }
   const auto fill = [&](std::int64_t page) {
-    const Tile tile(layout_, voxels_, page);
+    const std::optional<Tile> tile =
+        pages_.is_mixed(page) ? std::optional<Tile>(std::in_place, layout_, voxels_, page) : std::nullopt;
     const Index3 first = layout_.first_voxel(page);
     const Index3 shape = layout_.valid_shape(page);
     for (std::int64_t z = 0; z < shape.z; ++z) {
-      for (std::int64_t y = 0; y < shape.y; ++y) {
-        std::uint8_t* row =
-            values[static_cast<std::size_t>(first.z + z)] + first.x + volume.x * (first.y + y);
-        for (std::int64_t x = 0; x < shape.x; ++x) row[x] = tile.share({x, y, z});
+      std::uint8_t* const slice = slices[static_cast<std::size_t>(first.z + z)];
+      for (std::int64_t y = 0; y < shape.y && slice != nullptr; ++y) {
+        std::uint8_t* const row = slice + first.x + volume.x * (first.y + y);
+        for (std::int64_t x = 0; x < shape.x; ++x) row[x] = tile ? tile->share({x, y, z}) : kAll;
       }
     }
   };
   ThreadPool pool;
-  pool.for_each(static_cast<std::int64_t>(mixed.size()), 16, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t i = begin; i < end; ++i) fill(mixed[static_cast<std::size_t>(i)]);
+  pool.for_each(std::ssize(pages), 16, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i) fill(pages[static_cast<std::size_t>(i)]);
   });
-  return slices;
+  return box;
 }
 
 }  // namespace tidemark::renderer

@@ -11,19 +11,19 @@
 
 namespace tidemark::renderer {
 
-// Keeps no copy of the voxels, and works out anew only what other slices than before have a part in.
+// Keeps no copy of the voxels, and works out anew only what has changed and what is near it.
 class LabelVolume {
  public:
   LabelVolume() = default;
   // At first no voxel has a label, and all labels are seen.
   explicit LabelVolume(const solver::PageLayout& layout);
 
-  // Of the layout's volume. Returns the slices that differ from before.
-  std::vector<std::int64_t> set_voxels(const SharedSlices& voxels);
+  // Of the layout's volume. Returns a box around the voxels that have another label than before.
+  VoxelRange set_voxels(const SharedSlices& voxels);
   // Of the labels from 0 on.
   void set_colours(std::span<const LabelColour> colours) { pages_.set_colours(colours); }
-  // Brings shares() up to date. Returns the slices that may differ from before.
-  std::vector<std::int64_t> prepare_borders();
+  // Brings shares() up to date. Returns a box around those that may differ from before.
+  VoxelRange prepare_borders();
 
   [[nodiscard]] bool has_voxels() const { return pages_.has_voxels(); }
   [[nodiscard]] const SharedSlices& voxels() const { return voxels_; }

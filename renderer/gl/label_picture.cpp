@@ -13,13 +13,21 @@ Result<gpu::Texture3D> texture_of(gpu::Device& device, gpu::TexelFormat format, 
   return gpu::Texture3D::create(device, format, values.size(), std::as_bytes(std::span(voxels)), label);
 }
 
-void upload(gpu::Texture3D& texture, const SharedSlices& values, const std::vector<std::int64_t>& slices) {
-  const Index3 size = values.size();
-  std::vector<std::uint8_t> slice(static_cast<std::size_t>(size.x * size.y));
-  for (const std::int64_t k : slices) {
+void upload(gpu::Texture3D& texture, const SharedSlices& values, const VoxelRange& box) {
+  if (box.empty()) return;
+  const Index3 shape = box.high - box.low;
+  const std::int64_t width = values.size().x;
+  std::vector<std::uint8_t> slice(static_cast<std::size_t>(width * values.size().y));
+  std::vector<std::uint8_t> packed;
+  packed.reserve(static_cast<std::size_t>(shape.x * shape.y * shape.z));
+  for (std::int64_t k = box.low.z; k < box.high.z; ++k) {
     values.read(k, slice);
-    texture.upload({0, 0, k}, {size.x, size.y, 1}, std::as_bytes(std::span(slice)));
+    for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
+      const auto row = slice.begin() + width * j;
+      packed.insert(packed.end(), row + box.low.x, row + box.high.x);
+    }
   }
+  texture.upload(box.low, shape, std::as_bytes(std::span(packed)));
 }
 
 }  // namespace
@@ -58,7 +66,7 @@ Status LabelPicture::set_voxels(gpu::Device& device, const SharedSlices& voxels)
     if (!texture) return pass_on(texture);
     voxels_ = std::move(*texture);
   }
-  const std::vector<std::int64_t> changed = volume_.set_voxels(voxels);
+  const VoxelRange changed = volume_.set_voxels(voxels);
   if (std::exchange(has_voxels_, true)) upload(voxels_, voxels, changed);
   if (!changed.empty()) upload_pages();
   return device.check("showing labels");
@@ -66,7 +74,7 @@ Status LabelPicture::set_voxels(gpu::Device& device, const SharedSlices& voxels)
 
 Status LabelPicture::prepare_borders(gpu::Device& device) {
   if (!has_voxels_) return {};
-  const std::vector<std::int64_t> changed = volume_.prepare_borders();
+  const VoxelRange changed = volume_.prepare_borders();
   if (has_shares_) {
     upload(shares_, volume_.shares(), changed);
     return device.check("showing borders of labels");
