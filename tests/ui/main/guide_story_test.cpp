@@ -11,6 +11,7 @@
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "tests/ui/main/story_language.h"
 #include "ui/look/theme.h"
 #include "ui/main/panel_docks.h"
 #include "ui/views/next_step.h"
@@ -93,7 +94,7 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
 
   desktop.window().panels().show("labels");
   desktop.wait_until_idle();
-  QVERIFY(click(desktop, "Accept surface into label"));
+  QVERIFY(click(desktop, in_story_language("Accept surface into label")));
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
   QCOMPARE(desktop.state().label_statistics[0].voxels, desktop.state().surface.voxels_inside);
@@ -110,7 +111,7 @@ void GuideStoryTest::the_first_minute_leads_to_a_tumour() {
   });
   user.start(200);
   desktop.press(Qt::Key_E, Qt::ControlModifier);
-  QCOMPARE(question, QString("What is to be written?"));
+  QCOMPARE(question, in_story_language("What is to be written?"));
 }
 
 void GuideStoryTest::every_layout_is_whole_in_both_themes() {

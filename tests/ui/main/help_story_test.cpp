@@ -10,6 +10,7 @@
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "tests/ui/main/story_language.h"
 #include "tests/ui/main/student.h"
 #include "ui/main/help.h"
 #include "ui/main/keys_dialog.h"
@@ -102,7 +103,8 @@ void HelpStoryTest::every_panel_has_its_page() {
   QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 30 && !desktop.state().playing; }, 120000));
   desktop.window().panels().show("labels");
   desktop.wait_until_idle();
-  QTest::mouseClick(seen<QAbstractButton>(desktop.window(), "Accept surface into label"), Qt::LeftButton);
+  QTest::mouseClick(seen<QAbstractButton>(desktop.window(), in_story_language("Accept surface into label")),
+                    Qt::LeftButton);
   desktop.wait_until_idle();
 
   QStringList pages;

@@ -10,6 +10,7 @@
 #include "imaging/phantom/phantom.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "tests/ui/main/story_language.h"
 #include "tests/ui/main/student.h"
 #include "ui/main/panel_docks.h"
 
@@ -58,7 +59,8 @@ void OwnStudyStoryTest::a_folder_leads_to_an_stl_file() {
 
   desktop.window().panels().show("labels");
   desktop.wait_until_idle();
-  QTest::mouseClick(seen<QAbstractButton>(desktop.window(), "Accept surface into label"), Qt::LeftButton);
+  QTest::mouseClick(seen<QAbstractButton>(desktop.window(), in_story_language("Accept surface into label")),
+                    Qt::LeftButton);
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
 
