@@ -264,6 +264,7 @@ void ReadersStoryTest::labels_of_the_case_are_readers_too() {
   // The estimate takes no voxel of the label before it is asked to.
   QTest::mouseClick(button(dialog, "Keep as label"), Qt::LeftButton);
   QVERIFY(Desktop::wait_for([&] { return said(dialog).contains("stayed with other labels"); }, kPatience));
+  desktop_->wait_until_idle();  // figures come after the voxels
   const std::int64_t before = desktop_->state().label_statistics[0].voxels;
   QCOMPARE(before, ball(grid(), 4.0).count());
   desktop_->proxy().undo();
@@ -271,6 +272,7 @@ void ReadersStoryTest::labels_of_the_case_are_readers_too() {
   QTest::mouseClick(dialog.findChild<QCheckBox*>(), Qt::LeftButton, {}, {8, 8});
   QTest::mouseClick(button(dialog, "Keep as label"), Qt::LeftButton);
   QVERIFY(Desktop::wait_for([&] { return said(dialog).contains("had another label"); }, kPatience));
+  desktop_->wait_until_idle();
   QVERIFY(desktop_->state().label_statistics[0].voxels < before);
 }
 
