@@ -34,7 +34,7 @@ class ReaderComparison : public JobRunner {
  public:
   using JobRunner::JobRunner;
 
-  // Onto the case's grid; ends with read(), failed() or cancelled().
+  // Onto the case's grid; ends with was_read(), failed() or cancelled().
   void read(const std::filesystem::path& file, const Geometry& grid);
   // Each reader with each other, then STAPLE's estimate of all. Ends with estimated(), failed() or
   // cancelled().

@@ -76,6 +76,7 @@ class ReadersStoryTest : public QObject, ResultsDesktop {
   void the_dialog_closes_with_its_case();
 
  private:
+  void import_ball();  // as a label of the case
   ui::ReadersDialog* open_dialog();
   void add(ui::ReadersDialog& dialog, const QStringList& files);
   void add_three(ui::ReadersDialog& dialog);
@@ -240,15 +241,19 @@ void ReadersStoryTest::the_estimate_is_kept_in_its_own_case_and_undone() {
   QCOMPARE(pairs(dialog).rowCount(), 3);
 }
 
-void ReadersStoryTest::labels_of_the_case_are_readers_too() {
-  document::Start start;
-  start.seeds.push_back({kRight, kRadius});
-  desktop_->proxy().begin(start);
+void ReadersStoryTest::import_ball() {
   auto segments = std::make_shared<imaging::Segments>();
   segments->geometry = grid();
   segments->list.push_back(segment(grid(), "Ball", 4.0));
   desktop_->proxy().import_labels(segments);
   desktop_->wait_until_idle();
+}
+
+void ReadersStoryTest::labels_of_the_case_are_readers_too() {
+  document::Start start;
+  start.seeds.push_back({kRight, kRadius});
+  desktop_->proxy().begin(start);
+  import_ball();
   ui::ReadersDialog& dialog = *open_dialog();
   QVERIFY(!button(dialog, "Compare")->isEnabled());  // the surface alone has a tick
   tick(dialog, "Ball");
@@ -371,11 +376,7 @@ void ReadersStoryTest::the_table_goes_out_with_points_where_the_language_has_com
 
 // By a click, and where what it finds would be of readers that are not there any more.
 void ReadersStoryTest::a_comparison_is_given_up() {
-  auto segments = std::make_shared<imaging::Segments>();
-  segments->geometry = grid();
-  segments->list.push_back(segment(grid(), "Ball", 4.0));
-  desktop_->proxy().import_labels(segments);
-  desktop_->wait_until_idle();
+  import_ball();
   ui::ReadersDialog& dialog = *open_dialog();
   add_three(dialog);
   tick(dialog, "Ball");
