@@ -9,6 +9,7 @@
 #include <QFile>
 #include <QStandardPaths>
 #include <QThread>
+#include <algorithm>
 
 namespace tidemark::test {
 namespace {
@@ -115,7 +116,7 @@ Archive::~Archive() {
   process_.waitForFinished(5000);
 }
 
-void Archive::start(const QString& program, const QStringList& arguments) {
+void Archive::start(const QString& program, const QStringList& arguments, const std::vector<int>& also) {
   const QString path = path_of(program);
   if (path.isEmpty()) qFatal("%s is not installed: packaging/dependencies.sh has it", qPrintable(program));
   process_.setProcessChannelMode(QProcess::MergedChannels);
@@ -124,7 +125,7 @@ void Archive::start(const QString& program, const QStringList& arguments) {
   QElapsedTimer timer;
   for (timer.start(); timer.elapsed() < kLongestStart; QThread::msleep(50)) {
     if (!process_.waitForStarted(5000) || process_.state() != QProcess::Running) break;
-    if (answers(server_.port)) return;
+    if (answers(server_.port) && std::ranges::all_of(also, answers)) return;
     process_.waitForFinished(1);  // notices when it has ended
   }
   QFile log(QString::fromStdString((folder_ / "log.txt").string()));
@@ -155,7 +156,7 @@ WebArchive::WebArchive(const TlsFiles* tls, const std::string& user) {
   }
   const fs::path configuration = folder_ / "orthanc.json";
   write_text(configuration, orthanc_configuration(folder_.path(), server_, more, false));
-  start("Orthanc", {QString::fromStdString(configuration.string())});
+  start("Orthanc", {QString::fromStdString(configuration.string())}, {port});
   if (tls != nullptr) start_front(*tls, called, port);
 }
 

@@ -29,7 +29,8 @@ class Archive {
   [[nodiscard]] imaging::PacsServer server_by_move() const;
 
  protected:
-  void start(const QString& program, const QStringList& arguments);
+  // Returns when it answers at its own port and at `also`.
+  void start(const QString& program, const QStringList& arguments, const std::vector<int>& also = {});
   imaging::PacsServer server_;
   TemporaryFolder folder_;
 
