@@ -5,7 +5,10 @@
 namespace tidemark::engine {
 
 QString change_text(const document::ChangeDescription& change) {
-  const auto tr = [](const char* text) { return QCoreApplication::translate("Change", text); };
+  const auto tr = [](const char* text, int count = -1) {
+    return QCoreApplication::translate("Change", text, nullptr, count);
+  };
+  const int steps = static_cast<int>(change.steps);
   const QString name = QString::fromStdString(change.name);
   switch (change.kind) {
     case document::ChangeKind::start:
@@ -23,13 +26,13 @@ QString change_text(const document::ChangeDescription& change) {
     case document::ChangeKind::parameters:
       return tr("change of parameters");
     case document::ChangeKind::evolution:
-      return change.steps == 1 ? tr("evolution, 1 step") : tr("evolution, %1 steps").arg(change.steps);
+      return tr("evolution, %n steps", steps);
     case document::ChangeKind::step_back:
-      return change.steps == 1 ? tr("1 step back") : tr("%1 steps back").arg(change.steps);
+      return tr("%n steps back", steps);
     case document::ChangeKind::restart:
       return tr("restart");
     case document::ChangeKind::sweep:
-      return tr("run of a sweep, %1 steps").arg(change.steps);
+      return tr("run of a sweep, %n steps", steps);
     case document::ChangeKind::source:
       return tr("smoothing of the source");
     case document::ChangeKind::examples:

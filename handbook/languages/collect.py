@@ -71,7 +71,8 @@ def shown_by_program(language):
     plain = lambda text: re.sub(r"\(&.\)", "", text).replace("&", "").rstrip("…")
     shown = collections.defaultdict(set)  # a menu and a panel may have one name in English
     for text, own in json.loads((PROGRAM / f"{language}.json").read_text()).items():
-        shown[plain(text)].add(plain(own))
+        for form in own if isinstance(own, list) else [own]:
+            shown[plain(text)].add(plain(form))
     return shown
 
 

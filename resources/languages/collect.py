@@ -4,7 +4,8 @@
   resources/languages/collect.py            adds new texts with an empty translation, and removes those that are gone
   resources/languages/collect.py --check    writes nothing; fails where a text is not translated, or badly
 
-A file is an object of JSON, in the order of the sources: English text, translation. docs/how-to/translate.md
+A file is an object of JSON, in the order of the sources: English text, translation; of a text with a count a list of two
+translations, for one thing and for others, and en.json has those alone. docs/how-to/translate.md
 """
 import json
 import pathlib
@@ -16,6 +17,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 # Which arguments of a call are texts.
 CALLS = {"tr": {0}, "translate": {1}, "QT_TRANSLATE_NOOP": {1}, "fail": {1}, "progress": {1}, "shared": {2}}
+# Languages without a plural: a single translation serves any count.
+ONE_FORM = ("ja", "zh_CN")
 # Tables of the folders below the user interface, whose texts are shown: members of these names, and columns.
 MEMBERS = ("title", "text", "unit")
 TABLES = {"document/lesson_figure.cpp": r'^\s+\{"\w+", "[^"]*", "([^"]+)"',
@@ -54,7 +57,7 @@ def joined(tokens, i):
 
 
 def arguments(tokens, i, wanted):
-    """The texts of the wanted arguments of the call whose first argument begins at i."""
+    """The texts of the wanted arguments of the call whose first argument begins at i; with their number."""
     found = []
     depth, argument = 1, 0
     while i < len(tokens) and depth:
@@ -67,15 +70,18 @@ def arguments(tokens, i, wanted):
         depth += (token in "([{") - (token in ")]}")
         argument += token == "," and depth == 1
         i += 1
-    return found
+    return found, argument + 1
 
 
-def marked(tokens):
-    """Texts that a call or a table marks as such."""
+def marked(tokens, counted):
+    """Texts that a call or a table marks as such. Those with a count go into `counted` too."""
     found = []
     for i, token in enumerate(tokens):
         if token in CALLS and tokens[i + 1:i + 2] == ["("]:
-            found += arguments(tokens, i + 2, CALLS[token])
+            texts, number = arguments(tokens, i + 2, CALLS[token])
+            found += texts
+            if token == "tr" and number > 1:
+                counted.update(texts)
         elif token in MEMBERS and i > 0 and tokens[i - 1] == "." and tokens[i + 1:i + 2] == ["="]:
             found.append(joined(tokens, i + 2)[0])
     return found
@@ -110,8 +116,8 @@ def lesson_texts(lesson):
 
 
 def collected():
-    """The texts in the order of the sources, each once."""
-    texts = {}
+    """The texts in the order of the sources, each once, and those of them that have a count."""
+    texts, counted = {}, set()
     for folder in FOLDERS:
         for path in sorted((ROOT / folder).rglob("*")):
             if path.suffix not in (".cpp", ".h"):
@@ -119,7 +125,7 @@ def collected():
             source = path.read_text(encoding="utf-8")
             name = str(path.relative_to(ROOT))
             tokens = tokens_of(source)
-            found = marked(tokens) + re.findall(TABLES.get(name, r"(?!)"), source, re.M)
+            found = marked(tokens, counted) + re.findall(TABLES.get(name, r"(?!)"), source, re.M)
             if folder in SENTENCES and not name.startswith(NO_SENTENCES):
                 found += sentences(tokens)
             for text in found:
@@ -128,13 +134,17 @@ def collected():
     for path in sorted((ROOT / "resources/lessons").glob("*.json")):
         for text in lesson_texts(json.loads(path.read_text(encoding="utf-8"))):
             texts.setdefault(text, str(path.relative_to(ROOT)))
-    return texts
+    return texts, counted
 
 
-def problem(english, translation):
-    """What is wrong with a translation, or None."""
+def problem(english, translation, forms):
+    """What is wrong with a translation that should have so many forms, or None."""
     if not translation:
         return "is not translated"
+    if forms > 1 or isinstance(translation, list):
+        if not isinstance(translation, list) or len(translation) != forms:
+            return f"has other than {forms} forms"
+        return next(filter(None, (problem(english, form, 1) for form in translation)), None)
     if sorted(PLACE.findall(english)) != sorted(PLACE.findall(translation)):
         return "has other places for values (%1)"
     values = VALUE.findall(translation)
@@ -153,12 +163,13 @@ def problem(english, translation):
 
 
 def main():
-    texts = collected()
+    all_texts, counted = collected()
     failed = False
     for path in sorted(HERE.glob("*.json")):
         known = json.loads(path.read_text(encoding="utf-8"))
+        texts = [text for text in all_texts if text in counted] if path.stem == "en" else all_texts
         if sys.argv[1:] == ["--check"]:
-            problems = [(text, problem(text, known.get(text))) for text in texts]
+            problems = [(text, problem(text, known.get(text), 2 if text in counted and path.stem not in ONE_FORM else 1)) for text in texts]
             problems += [(text, "is no text of the program") for text in known if text not in texts]
             for text, what in problems:
                 if what:
@@ -166,7 +177,8 @@ def main():
                     failed = True
         else:
             now = {text: known.get(text, "") for text in texts}
-            path.write_text(json.dumps(now, ensure_ascii=False, indent=0) + "\n", encoding="utf-8")
+            lines = (f"{json.dumps(text, ensure_ascii=False)}: {json.dumps(own, ensure_ascii=False)}" for text, own in now.items())
+            path.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
             print(f"{path.name}: {len(now)} texts, {sum(not one for one in now.values())} not translated")
     return 1 if failed else 0
 

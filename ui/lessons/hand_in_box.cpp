@@ -82,9 +82,9 @@ void HandInBox::follow() {
 // Before all is done it would tell which predictions are right.
 QString HandInBox::score_text() const {
   const std::size_t count = course_.lesson().parts.size();
-  std::size_t done = 0;
+  int done = 0;
   for (std::size_t i = 0; i < count; ++i) done += course_.done(i) ? 1 : 0;
-  if (done < count) return tr("%1 of %2 parts are done.").arg(done).arg(count);
+  if (std::cmp_less(done, count)) return tr("%n of %1 parts are done.", nullptr, done).arg(count);
   const document::LessonScore score = document::score(course_.lesson(), course_.answers());
   return tr("%1 of %2 predictions right, %3 of %4 figures as expected.")
       .arg(score.right)

@@ -62,7 +62,7 @@ void LessonTrial::show_outcomes(const document::Lesson& lesson,
   } else if (outside == 0) {
     said_->setText(tr("Every figure is in its range."));
   } else {
-    said_->setText(tr("%1 of %2 figures are out of range.").arg(outside).arg(table_->rowCount()));
+    said_->setText(tr("%n of %1 figures are out of range.", nullptr, outside).arg(table_->rowCount()));
   }
   table_->selectRow(0);
 }

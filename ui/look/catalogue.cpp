@@ -1,5 +1,6 @@
 #include "ui/look/catalogue.h"
 
+#include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QStringList>
@@ -22,18 +23,27 @@ QString without_doubled_braces(QString text) {
       .replace(QLatin1String("}}"), QLatin1String("}"));
 }
 
+// Empty where one of them is.
+QStringList forms_of(const QJsonValue& translation) {
+  QStringList forms;
+  if (translation.isString()) forms << translation.toString();
+  for (const QJsonValue& form : translation.toArray()) forms << form.toString();
+  return forms.contains(QString()) ? QStringList() : forms;
+}
+
 }  // namespace
 
-Catalogue::Catalogue(const QByteArray& json, QObject* parent) : QTranslator(parent) {
+Catalogue::Catalogue(const QByteArray& json, QLocale::Language language, QObject* parent)
+    : QTranslator(parent), language_(language) {
   const QJsonObject texts = QJsonDocument::fromJson(json).object();
   texts_.reserve(texts.size());
   for (auto text = texts.begin(); text != texts.end(); ++text) {
-    const QString translation = text.value().toString();
-    if (translation.isEmpty()) continue;
+    const QStringList forms = forms_of(text.value());
+    if (forms.isEmpty()) continue;
     if (text.key().contains(value_places())) {
-      add_pattern(text.key(), translation);
+      add_pattern(text.key(), forms.back());
     } else {
-      texts_.insert(text.key(), translation);
+      texts_.insert(text.key(), forms);
     }
   }
   std::stable_sort(patterns_.begin(), patterns_.end(),
@@ -62,11 +72,16 @@ void Catalogue::add_pattern(const QString& english, const QString& translation) 
   patterns_.push_back(std::move(pattern));
 }
 
-QString Catalogue::translate(const char* context, const char* text, const char*, int) const {
+// French says "0 fichier".
+bool Catalogue::is_one(int count) const {
+  return count == 1 || (count == 0 && language_ == QLocale::French);
+}
+
+QString Catalogue::translate(const char* context, const char* text, const char*, int count) const {
   if (!text) return {};
   const QString english = QString::fromUtf8(text);
   const auto found = texts_.constFind(english);
-  if (found != texts_.constEnd()) return *found;
+  if (found != texts_.constEnd()) return is_one(count) ? found->front() : found->back();
   if (!context || std::strcmp(context, engine::kMessageContext) != 0) return {};
   QStringList lines = english.split(u'\n');
   for (QString& line : lines) {
@@ -77,7 +92,7 @@ QString Catalogue::translate(const char* context, const char* text, const char*,
 
 QString Catalogue::sentence(const QString& message, int depth) const {
   constexpr int kDeepest = 4;  // a sentence within a sentence
-  if (const auto found = texts_.constFind(message); found != texts_.constEnd()) return *found;
+  if (const auto found = texts_.constFind(message); found != texts_.constEnd()) return found->back();
   if (depth == kDeepest) return {};
   for (const Pattern& pattern : patterns_) {
     const auto match = pattern.english.match(message);

@@ -66,7 +66,7 @@ void use_language(const QString& code) {
   auto qt = std::make_unique<QTranslator>();
   if (qt->load(QStringLiteral("qtbase_") + chosen, QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
     use(std::move(qt));
-  use(std::make_unique<Catalogue>(texts_of(chosen)));  // asked before Qt's
+  use(std::make_unique<Catalogue>(texts_of(chosen), QLocale(chosen).language()));  // asked before Qt's
   code_in_use() = chosen;
 }
 

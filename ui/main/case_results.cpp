@@ -149,11 +149,9 @@ void CaseResults::add(const std::shared_ptr<const imaging::Segments>& segments) 
     into->proxy().import_labels(segments);
     window_.settle(kAboutImport);
     window_.panels().show("labels");
-    const auto count = segments->list.size();
     const QString name = QFileInfo(waiting_.front().file).fileName();
     window_.statusBar()->showMessage(
-        count == 1 ? tr("Read a label from %1").arg(name) : tr("Read %1 labels from %2").arg(count).arg(name),
-        kShownMs);
+        tr("Read %n labels from %1", nullptr, static_cast<int>(segments->list.size())).arg(name), kShownMs);
     QStringList changes;
     for (const std::string& change : segments->changes) changes << engine::message_text(change);
     if (!changes.isEmpty()) window_.tell(tr("%1: %2").arg(name, changes.join(QStringLiteral("; "))));

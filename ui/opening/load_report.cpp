@@ -40,7 +40,7 @@ QString summary(const Volume& volume) {
   if (changes.empty()) return grid;
   const QString first = engine::message_text(changes.front());
   if (changes.size() == 1) return LoadReport::tr("%1; %2").arg(grid, first);
-  return LoadReport::tr("%1; %2 changes: %3, …").arg(grid).arg(changes.size()).arg(first);
+  return LoadReport::tr("%1; %n changes: %2, …", nullptr, static_cast<int>(changes.size())).arg(grid, first);
 }
 
 QString html_list(const QString& items) {
@@ -103,9 +103,9 @@ QWidget* LoadReport::make_offer(const std::vector<engine::FoundResult>& results)
   auto* row = new QHBoxLayout(offer);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(kSpace);
-  auto* what = new QLabel(results.size() == 1
-                              ? tr("Beside it: %1").arg(form_text(results.front().form))
-                              : tr("Beside it: %1 segmentations or structure sets").arg(results.size()));
+  auto* what = new QLabel(results.size() == 1 ? tr("Beside it: %1").arg(form_text(results.front().form))
+                                              : tr("Beside it: %n segmentations or structure sets", nullptr,
+                                                   static_cast<int>(results.size())));
   what->setTextFormat(Qt::PlainText);
   row->addWidget(what);
   QStringList files;

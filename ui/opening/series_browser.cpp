@@ -43,8 +43,7 @@ QString item_list(const QString& title, const std::vector<std::string>& items) {
 
 QString skipped_text(std::size_t count) {
   if (count == 0) return {};
-  return count == 1 ? SeriesBrowser::tr("1 other file is no scan.")
-                    : SeriesBrowser::tr("%1 other files are no scans.").arg(count);
+  return SeriesBrowser::tr("%n other files are no scans.", nullptr, static_cast<int>(count));
 }
 
 QString skipped_list(const std::vector<imaging::SkippedFile>& skipped) {
@@ -150,8 +149,7 @@ void SeriesBrowser::show_catalogue(std::shared_ptr<const imaging::Catalogue> cat
   catalogue_ = std::move(catalogue);
   filter_->clear();
   model_->show(catalogue_, devicePixelRatioF());
-  const std::size_t count = catalogue_->series.size();
-  heading_->setText(count == 1 ? tr("1 series in %1").arg(path) : tr("%1 series in %2").arg(count).arg(path));
+  heading_->setText(tr("%n series in %1", nullptr, static_cast<int>(catalogue_->series.size())).arg(path));
   skipped_->setText(skipped_text(catalogue_->skipped.size()));
   skipped_->setToolTip(skipped_list(catalogue_->skipped));
   for (int column = SeriesModel::kPatient; column < SeriesModel::kColumns; ++column) {

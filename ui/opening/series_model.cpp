@@ -30,10 +30,8 @@ QString notes_text(const imaging::Series& series) {
   if (!series.loadable) return SeriesModel::tr("Cannot be loaded");
   const auto warnings = static_cast<int>(series.warnings.size());
   const auto changes = static_cast<int>(series.changes.size());
-  if (warnings == 1) return SeriesModel::tr("1 warning");
-  if (warnings > 1) return SeriesModel::tr("%1 warnings").arg(warnings);
-  if (changes == 1) return SeriesModel::tr("1 change");
-  if (changes > 1) return SeriesModel::tr("%1 changes").arg(changes);
+  if (warnings > 0) return SeriesModel::tr("%n warnings", nullptr, warnings);
+  if (changes > 0) return SeriesModel::tr("%n changes", nullptr, changes);
   return SeriesModel::tr("Ready");
 }
 

@@ -61,27 +61,22 @@ void QueryDialog::connect_client() {
   connect(&client_, &engine::PacsClient::cancelled, this, [this] { rest(tr("Cancelled.")); });
   connect(&client_, &engine::PacsClient::studies_found, this, [this](const auto& found) {
     tree_->show_studies(*found);
-    const auto count = found->entries.size();
-    rest(found->more  ? tr("The server has more than these %1 studies: ask for less.").arg(count)
-         : count == 1 ? tr("1 study.")
-                      : tr("%1 studies.").arg(count));
+    const int count = static_cast<int>(found->entries.size());
+    rest(found->more ? tr("The server has more than these %n studies: ask for less.", nullptr, count)
+                     : tr("%n studies.", nullptr, count));
   });
   connect(&client_, &engine::PacsClient::series_found, this,
           [this](const QString& study_uid, const auto& found) {
             asked_study_.clear();
             tree_->show_series(study_uid, *found);
-            const auto count = found->entries.size();
-            rest(count == 1 ? tr("1 series.") : tr("%1 series.").arg(count));
+            rest(tr("%n series.", nullptr, static_cast<int>(found->entries.size())));
           });
   connect(&client_, &engine::PacsClient::retrieved, this, [this](const QString& folder, const auto& what) {
-    const auto came = what->files.size();
-    rest(came == 1 ? tr("1 object came.") : tr("%1 objects came.").arg(came));
+    rest(tr("%n objects came.", nullptr, static_cast<int>(what->files.size())));
     const auto lost = what->missing + static_cast<std::int64_t>(what->refused.size());
     if (lost > 0) {
-      emit told(
-          lost == 1
-              ? tr("The series is not complete: 1 object did not come, or is not usable.")
-              : tr("The series is not complete: %1 objects did not come, or are not usable.").arg(lost));
+      emit told(tr("The series is not complete: %n objects did not come, or are not usable.", nullptr,
+                   static_cast<int>(lost)));
     }
     emit retrieved(folder);
   });

@@ -108,7 +108,8 @@ void EvolutionControls::add_details(Form& form) {
   steps_ = form.choice(tr("Picture every"), tr("How many steps are computed between two pictures while it "
                                                "plays. Automatic: as many as keep the pictures fluent."));
   for (const std::int64_t steps : kStepsPerPicture) {
-    steps_->addItem(steps == 0 ? tr("Automatic") : (steps == 1 ? tr("step") : tr("%1 steps").arg(steps)),
+    steps_->addItem(steps == 0 ? tr("Automatic")
+                               : (steps == 1 ? tr("step") : tr("%n steps", nullptr, static_cast<int>(steps))),
                     QVariant::fromValue<qint64>(steps));
   }
   connect(steps_, &QComboBox::activated, this, [this] {

@@ -15,6 +15,7 @@
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
@@ -24,8 +25,9 @@ constexpr double kLargestVoxels = 50.0;
 constexpr std::size_t kMostToCount = 20000;  // strokes from files can be whole organs
 
 QString text_of(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {
-  const QString count = ExampleControls::tr("%1 voxels").arg(count_text(static_cast<qint64>(voxels.size())));
   if (voxels.empty()) return ExampleControls::tr("none");
+  const auto size = static_cast<qint64>(voxels.size());
+  const QString count = ExampleControls::tr("%1 voxels", nullptr, form_of(size)).arg(count_text(size));
   if (voxels.size() > kMostToCount) return count;
   const std::int64_t strokes = engine::count_strokes(geometry, voxels);
   return ExampleControls::tr("%1 × %2").arg(count_text(strokes), count);

@@ -61,7 +61,7 @@ QString sweep_run_text(const document::Sweep& sweep, QPoint cell) {
   if (run.problem.empty()) {
     figures << number_text(run.volume_ml, 2, SweepMatrix::tr("ml"));
     if (run.dice) figures << SweepMatrix::tr("Dice %1").arg(number_text(*run.dice, 3));
-    figures << SweepMatrix::tr("%1 steps").arg(run.steps);
+    figures << SweepMatrix::tr("%n steps", nullptr, static_cast<int>(run.steps));
   }
   figures << outcome_text(run);
   return QStringLiteral("%1: %2").arg(values.join(QStringLiteral(", ")), figures.join(QStringLiteral(", ")));

@@ -10,6 +10,7 @@
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 
@@ -58,7 +59,7 @@ void WallControls::attach() {
 void WallControls::count() {
   const auto voxels = [this](solver::Constraint what) {
     const std::int64_t count = counted_ ? counted_->count(what) : 0;
-    return count == 0 ? tr("none") : tr("%1 voxels").arg(count_text(count));
+    return count == 0 ? tr("none") : tr("%1 voxels", nullptr, form_of(count)).arg(count_text(count));
   };
   walls_->setText(voxels(solver::Constraint::wall));
   anchors_->setText(voxels(solver::Constraint::anchor));

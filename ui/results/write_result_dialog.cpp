@@ -168,9 +168,10 @@ bool WriteResultDialog::confirm() {
   QStringList there = files();
   there.removeIf([](const QString& one) { return !QFileInfo::exists(one); });
   if (there.isEmpty()) return true;
-  const QString question =
-      there.size() == 1 ? tr("%1 exists. Replace it?").arg(there.first())
-                        : tr("%1 and %2 more exist. Replace them?").arg(there.first()).arg(there.size() - 1);
+  const QString question = there.size() == 1 ? tr("%1 exists. Replace it?").arg(there.first())
+                                             : tr("%1 and %n more exist. Replace them?", nullptr,
+                                                  static_cast<int>(there.size() - 1))
+                                                   .arg(there.first());
   return QMessageBox::question(this, windowTitle(), question, QMessageBox::Yes | QMessageBox::No,
                                QMessageBox::No) == QMessageBox::Yes;
 }

@@ -64,9 +64,11 @@ void LabelStroke::release() {
 }
 
 QString LabelStroke::text() const {
-  const QString voxels = count_text(static_cast<qint64>(region_.count()));
-  return what_ == document::Labels::Stroke::adds ? tr("adds up to %1 voxels").arg(voxels)
-                                                 : tr("takes up to %1 voxels away").arg(voxels);
+  const auto count = static_cast<qint64>(region_.count());
+  const QString said = what_ == document::Labels::Stroke::adds
+                           ? tr("adds up to %1 voxels", nullptr, form_of(count))
+                           : tr("takes up to %1 voxels away", nullptr, form_of(count));
+  return said.arg(count_text(count));
 }
 
 }  // namespace tidemark::ui

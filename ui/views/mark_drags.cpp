@@ -71,12 +71,12 @@ void ExampleDrag::release() {
 }
 
 QString ExampleDrag::text() const {
-  const QString voxels = count_text(static_cast<qint64>(voxels_.size()));
+  const auto count = static_cast<qint64>(voxels_.size());
   switch (mark_) {
     case engine::Mark::inside:
-      return tr("inside: %1 voxels").arg(voxels);
+      return tr("inside: %1 voxels", nullptr, form_of(count)).arg(count_text(count));
     case engine::Mark::outside:
-      return tr("outside: %1 voxels").arg(voxels);
+      return tr("outside: %1 voxels", nullptr, form_of(count)).arg(count_text(count));
     case engine::Mark::none:
       break;
   }

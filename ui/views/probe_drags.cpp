@@ -61,7 +61,7 @@ void probe_speed_at(engine::CaseProxy& proxy, glm::dvec3 place_mm) {
 
 QString SpeedProbeDrag::text() const {
   const engine::ValueProbe::Spread values = probe().values();
-  return tr("T %1   ε %2   (%3 voxels)")
+  return tr("T %1   ε %2   (%3 voxels)", nullptr, form_of(probe().count()))
       .arg(number_text(values.mean, 1), number_text(values.deviation, 1), count_text(probe().count()));
 }
 

@@ -10,6 +10,7 @@
 #include "imaging/load_study.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
+#include "ui/look/language.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/series_model.h"
 
@@ -58,6 +59,7 @@ class SeriesBrowserTest : public QObject {
   QString cell(int row, int column) const { return table_->model()->index(row, column).data().toString(); }
 
  private slots:
+  void initTestCase() { ui::use_language("en"); }
   void init() {
     browser_ = new ui::SeriesBrowser;
     browser_->show_catalogue(sample(), "/data");
