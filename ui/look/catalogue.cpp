@@ -84,10 +84,14 @@ QString Catalogue::translate(const char* context, const char* text, const char*,
   if (found != texts_.constEnd()) return is_one(count) ? found->front() : found->back();
   if (!context || std::strcmp(context, engine::kMessageContext) != 0) return {};
   QStringList lines = english.split(u'\n');
+  bool is_known = false;
   for (QString& line : lines) {
-    if (const QString known = sentence(line, 0); !known.isEmpty()) line = known;
+    const QString known = sentence(line, 0);
+    if (known.isEmpty()) continue;
+    line = known;
+    is_known = true;
   }
-  return lines.join(u'\n');
+  return is_known ? lines.join(u'\n') : QString();
 }
 
 QString Catalogue::sentence(const QString& message, int depth) const {

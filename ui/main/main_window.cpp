@@ -42,6 +42,7 @@
 #include "ui/main/status_bar.h"
 #include "ui/main/teaching.h"
 #include "ui/main/truth_reader.h"
+#include "ui/main/unfinished_work.h"
 #include "ui/opening/ask_for_study.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/load_report.h"
@@ -421,7 +422,7 @@ void MainWindow::connect_help() {
 // The window itself.
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!cohort_->may_close() || !teaching_->may_close()) return event->ignore();
+  if (!may_give_up_work(*this) || !cohort_->may_close() || !teaching_->may_close()) return event->ignore();
   area_->closeAllSubWindows();
   if (!area_->subWindowList().isEmpty()) {
     // The user keeps a case open, or saves one; closing is tried again after that.

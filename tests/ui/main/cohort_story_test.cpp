@@ -16,6 +16,7 @@
 #include "imaging/results/results.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "tests/ui/main/story_language.h"
 #include "tests/ui/main/student.h"
 #include "ui/cohort/cohort_panel.h"
 #include "ui/main/cohort_review.h"
@@ -160,18 +161,20 @@ void CohortStoryTest::cases_are_looked_at_and_spoken_of() {
   QVERIFY(open(desktop));
   desktop.wait_until_idle();
   desktop.screenshot("cohort-1-list");
-  QCOMPARE(row_of(desktop, "dora"), 0);           // without a result, hence before all others
-  QVERIFY(!enabled(desktop, "Reject the case"));  // none is chosen
+  QCOMPARE(row_of(desktop, "dora"), 0);  // without a result, hence before all others
+  QVERIFY(!enabled(desktop, in_story_language("Reject the case")));  // none is chosen
   click_row(desktop, 0, false);
-  QVERIFY(!enabled(desktop, "Accept the case"));
-  QVERIFY(enabled(desktop, "Reject the case"));
-  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), "Reject the case"), Qt::LeftButton);
+  QVERIFY(!enabled(desktop, in_story_language("Accept the case")));
+  QVERIFY(enabled(desktop, in_story_language("Reject the case")));
+  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), in_story_language("Reject the case")),
+                    Qt::LeftButton);
   QVERIFY(balls_->is_said("dora", Verdict::rejected));
 
   // By its picture alone, before any is open.
   click_row(desktop, row_of(desktop, "clara"), false);
-  QVERIFY(enabled(desktop, "Accept the case"));
-  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), "Accept the case"), Qt::LeftButton);
+  QVERIFY(enabled(desktop, in_story_language("Accept the case")));
+  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), in_story_language("Accept the case")),
+                    Qt::LeftButton);
   QVERIFY(balls_->is_said("clara", Verdict::accepted));
 
   // One is opened with its result, to the last bit.
@@ -185,7 +188,7 @@ void CohortStoryTest::cases_are_looked_at_and_spoken_of() {
   QVERIFY(mask);
   QVERIFY(desktop.state().phi->mask().voxels == mask->mask.voxels);
   desktop.screenshot("cohort-2-case");
-  auto* comment = find_seen<QLineEdit>(*panel(desktop), "Comment on the case");
+  auto* comment = find_seen<QLineEdit>(*panel(desktop), in_story_language("Comment on the case"));
   QVERIFY(comment);
   comment->setFocus();
   QTest::keyClicks(comment, "small, but right");
@@ -231,9 +234,10 @@ void CohortStoryTest::a_surface_is_corrected() {
   Desktop::drag(*axial, {middle, middle + glm::dvec3(3, 0, 0), middle + glm::dvec3(6, 0, 0)});
   desktop.wait_until_idle();
   QVERIFY(desktop.state().modified);
-  QVERIFY(Desktop::wait_for([&] { return enabled(desktop, "Accept the correction"); }));
+  QVERIFY(Desktop::wait_for([&] { return enabled(desktop, in_story_language("Accept the correction")); }));
   desktop.screenshot("cohort-4-changed");
-  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), "Accept the correction"), Qt::LeftButton);
+  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), in_story_language("Accept the correction")),
+                    Qt::LeftButton);
   QVERIFY(balls_->is_said("berta", Verdict::accepted));
   const cohort::CaseStatus now = balls_->status("berta");
   QVERIFY(now.corrected);
@@ -241,8 +245,9 @@ void CohortStoryTest::a_surface_is_corrected() {
   QVERIFY(bytes_of(place / "mask.nii.gz") != mask);
   QCOMPARE(bytes_of(place / "automatic" / "mask.nii.gz"), mask);
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().modified; }));
-  QVERIFY(Desktop::wait_for([&] { return enabled(desktop, "Accept the case"); }));
+  QVERIFY(Desktop::wait_for([&] { return enabled(desktop, in_story_language("Accept the case")); }));
   desktop.screenshot("cohort-5-corrected");
+  Desktop::keep_picture(*desktop.window().findChild<QDockWidget*>("cohort"));
 
   // The recipe beside it makes the same voxels.
   const auto contents = document::Recipe::load(place / "recipe.json");
@@ -269,20 +274,20 @@ void CohortStoryTest::nothing_is_said_of_a_case_that_is_not_seen() {
   QVERIFY(Desktop::wait_for([&] { return panel(desktop) != nullptr; }));
   click_row(desktop, row_of(desktop, "anna"), true);
   QVERIFY(opens(desktop, "anna"));
-  QVERIFY(enabled(desktop, "Reject the case"));
+  QVERIFY(enabled(desktop, in_story_language("Reject the case")));
   // Another row is chosen, and not opened.
   click_row(desktop, row_of(desktop, "clara"), false);
-  QVERIFY(!enabled(desktop, "Reject the case"));
-  QVERIFY(!enabled(desktop, "Accept the case"));
+  QVERIFY(!enabled(desktop, in_story_language("Reject the case")));
+  QVERIFY(!enabled(desktop, in_story_language("Accept the case")));
   const cohort::Decision before = balls_->said_of("clara");
   desktop.press(Qt::Key_R, Qt::ShiftModifier);
   desktop.wait_until_idle();
   QVERIFY(balls_->said_of("clara") == before);
   // Another study is the active one.
   click_row(desktop, row_of(desktop, "anna"), false);
-  QVERIFY(enabled(desktop, "Reject the case"));
+  QVERIFY(enabled(desktop, in_story_language("Reject the case")));
   QVERIFY(desktop.open_phantom("sphere"));
-  QVERIFY(Desktop::wait_for([&] { return !enabled(desktop, "Reject the case"); }));
+  QVERIFY(Desktop::wait_for([&] { return !enabled(desktop, in_story_language("Reject the case")); }));
   const cohort::Decision anna = balls_->said_of("anna");
   desktop.press(Qt::Key_R, Qt::ShiftModifier);
   desktop.wait_until_idle();
@@ -321,12 +326,13 @@ void CohortStoryTest::it_stays_open_when_the_language_changes() {
   for (QAction* action : desktop.window().actions().languages->actions()) {
     if (action->text() == "English") action->trigger();
   }
-  QVERIFY(Desktop::wait_for([&] { return panel(desktop) && enabled(desktop, "Reject the case"); }, 60000));
+  QVERIFY(Desktop::wait_for(
+      [&] { return panel(desktop) && enabled(desktop, in_story_language("Reject the case")); }, 60000));
   // To make a window takes longer than an event may.
   static_cast<void>(WatchedApplication::instance().take_held());
   QCOMPARE(&desktop.proxy(), before);
   QCOMPARE(panel(desktop)->row(), row_of(desktop, "anna"));
-  QVERIFY(enabled(desktop, "Accept the case"));  // it was not changed
+  QVERIFY(enabled(desktop, in_story_language("Accept the case")));  // it was not changed
 }
 
 void CohortStoryTest::a_folder_that_is_no_cohort_is_refused() {

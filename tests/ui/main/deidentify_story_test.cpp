@@ -3,7 +3,9 @@
 #include <QCheckBox>
 #include <QDir>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QRadioButton>
+#include <QTimer>
 #include <QTreeWidget>
 
 #include "imaging/load_study.h"
@@ -17,6 +19,8 @@ namespace tidemark::test::deidentify_story_test {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kManyCopies = 40;  // of the study: enough for a question to come in time
 
 template <class Widget>
 Widget& called(QWidget& in, const QString& name) {
@@ -77,6 +81,7 @@ class DeidentifyStoryTest : public QObject, private ResultsDesktop {
   void the_series_that_is_open_is_copied_without_its_patient();
   void what_is_left_out_of_a_folder_is_said();
   void nothing_is_overwritten();
+  void quitting_asks_while_copies_are_made();
 
  private:
   ui::DeidentifyDialog& dialog();
@@ -184,6 +189,43 @@ void DeidentifyStoryTest::nothing_is_overwritten() {
   QVERIFY(!fs::exists(folder_ / "new"));
   QCOMPARE(bytes_of(folder_ / "new-changes.csv"), QByteArray("mine"));
   QCOMPARE(QDir(path("study")).entryList(), files);
+}
+
+// The question comes while the work goes on, and the answer counts for what is unfinished then.
+void DeidentifyStoryTest::quitting_asks_while_copies_are_made() {
+  const fs::path source = folder_ / "source";
+  fs::create_directories(source);
+  for (int copy = 0; copy < kManyCopies; ++copy)
+    fs::copy(folder_ / "study", source / std::to_string(copy), fs::copy_options::recursive);
+  ui::DeidentifyDialog& made = dialog();
+  click(*made.findChildren<QRadioButton*>().last());
+  type(called<QLineEdit>(made, "Folder"), path("source"));
+  type(called<QLineEdit>(made, "Copies to"), path("copies"));
+  QPushButton* go = button(made, "Make copies");
+
+  const auto quit_and_say = [&](const QString& answer) {
+    QString asked;
+    QTimer::singleShot(0, &made, [&] {
+      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      if (!box) return;
+      asked = box->text();
+      QTest::mouseClick(button(*box, answer), Qt::LeftButton);
+    });
+    desktop_->window().actions().quit->trigger();
+    return asked;
+  };
+  QTest::mouseClick(go, Qt::LeftButton);
+  QVERIFY(quit_and_say("Cancel").contains("Anonymous copies"));
+  QVERIFY(desktop_->window().isVisible());
+  QVERIFY(Desktop::wait_for([&] { return go->isEnabled(); }, kPatience));
+  QVERIFY(says(made, QString("copies: files %1").arg(16 * kManyCopies)));
+
+  type(called<QLineEdit>(made, "Copies to"), path("unfinished"));
+  QTest::mouseClick(go, Qt::LeftButton);
+  QVERIFY(quit_and_say("Give it up and quit").contains("Anonymous copies"));
+  QVERIFY(Desktop::wait_for([&] { return !desktop_->window().isVisible(); }));
+  desktop_.reset();
+  QVERIFY(!fs::exists(folder_ / "unfinished"));
 }
 
 TIDEMARK_TEST(DeidentifyStoryTest)

@@ -271,6 +271,12 @@ void Desktop::screenshot_at_once(const QString& name) {
   picture.save(folder + '/' + name + ".png");
 }
 
+void Desktop::keep_picture(QWidget& dock) {
+  const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS");
+  if (folder.isEmpty()) return;
+  QVERIFY(dock.grab().save(QStringLiteral("%1/panel-%2.png").arg(folder, dock.objectName())));
+}
+
 double difference(const QImage& a, const QImage& b) {
   if (a.size() != b.size()) return 1.0;
   constexpr int kLittle = 12;

@@ -93,6 +93,8 @@ class Desktop {
   // dialog or menu that is open.
   void screenshot(const QString& name);
   void screenshot_at_once(const QString& name);
+  // There, too: of a panel, as "panel-NAME".
+  static void keep_picture(QWidget& dock);
 
  private:
   ui::CaseWindow* opened(qsizetype before);  // when there are more cases than that

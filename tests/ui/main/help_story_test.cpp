@@ -50,12 +50,6 @@ QWidget* first_that_takes_keys(QWidget& in) {
   return nullptr;
 }
 
-void keep_picture(QWidget& dock) {
-  const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS");
-  if (folder.isEmpty()) return;
-  QVERIFY(dock.grab().save(QStringLiteral("%1/panel-%2.png").arg(folder, dock.objectName())));
-}
-
 }  // namespace
 
 // In place of the system's browser: it keeps what it is asked for.
@@ -122,7 +116,7 @@ void HelpStoryTest::every_panel_has_its_page() {
     first_that_takes_keys(*dock->widget())->setFocus();
     desktop.press(Qt::Key_F1);
     QCOMPARE(browser.page(handbook), QStringLiteral("panels/%1.html").arg(name));
-    keep_picture(*dock);
+    Desktop::keep_picture(*dock);
   }
 }
 
@@ -140,7 +134,7 @@ void HelpStoryTest::the_lesson_has_its_page() {
   first_that_takes_keys(*dock->widget())->setFocus();
   desktop.press(Qt::Key_F1);
   QCOMPARE(browser.page(handbook), QString("panels/lesson.html"));
-  keep_picture(*dock);
+  Desktop::keep_picture(*dock);
 }
 
 void HelpStoryTest::dialogs_have_theirs() {

@@ -8,14 +8,16 @@
 #include <QTimer>
 
 #include "tests/ui/in_sight.h"
+#include "tests/ui/main/story_language.h"
 #include "ui/lessons/hand_in_box.h"
 
 namespace tidemark::test {
 
 void Student::open_own(int number) {
-  QAction* lesson = desktop_.menu_entry("Teach", QStringLiteral("%1 ").arg(number));
+  const QString menu = in_story_language("Te&ach").remove('&');
+  QAction* lesson = desktop_.menu_entry(menu, QStringLiteral("%1 ").arg(number));
   QVERIFY(lesson);
-  desktop_.choose("Teach", lesson);
+  desktop_.choose(menu, lesson);
   QVERIFY(Desktop::wait_for([&] { return panel() && panel()->isVisible(); }));
 }
 
@@ -82,8 +84,8 @@ void Student::measure() {
 
 void Student::go_on() {
   const std::size_t next = course().index() + 1;
-  QVERIFY(button("Next") && button("Next")->isEnabled());
-  click(*button("Next"));
+  QVERIFY(button(in_story_language("Next")) && button(in_story_language("Next"))->isEnabled());
+  click(*button(in_story_language("Next")));
   QCOMPARE(course().index(), next);
 }
 
