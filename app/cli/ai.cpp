@@ -65,8 +65,7 @@ Status run_models(Program& program, const AiServerChoice& choice) {
 }  // namespace
 
 Result<imaging::AiServer> AiServerChoice::choose() const {
-  const auto configuration =
-      imaging::read_ai_configuration(file.empty() ? imaging::ai_configuration_file().string() : file);
+  const auto configuration = imaging::read_chosen_ai_configuration(file);
   if (!configuration) return pass_on(configuration);
   return configuration->server(server);
 }

@@ -59,7 +59,8 @@ Result<AiConfiguration> read_ai_configuration(const std::filesystem::path& file)
   const auto json = JsonDocument::parse(*text, file.string(), kServerFileLimits);
   if (!json) return pass_on(json);
   const JsonField root = root_of(*json, file.string());
-  root.only({"servers"});
+  root.only({"servers", "locked"});
+  static_cast<void>(read_locked(root));  // a value of another type is a fault
   AiConfiguration configuration;
   const JsonField servers = root.at("servers");
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
@@ -70,6 +71,12 @@ Result<AiConfiguration> read_ai_configuration(const std::filesystem::path& file)
   }
   if (!root.good()) return pass_on(root.status());
   return configuration;
+}
+
+Result<AiConfiguration> read_chosen_ai_configuration(const std::filesystem::path& chosen) {
+  const auto file = chosen_server_file(chosen, user_configuration_file(kAiFile), kAiFile);
+  if (!file) return pass_on(file);
+  return read_ai_configuration(*file);
 }
 
 Status check_ai_server(const AiServer& server) {

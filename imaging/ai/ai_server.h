@@ -39,12 +39,15 @@ struct AiConfiguration {
 };
 
 // The file to read: the user's own, $XDG_CONFIG_HOME/tidemark/ai.json, else ~/.config/tidemark/ai.json, where
-// it is there; else the site's, ai.json in site_folder().
+// it is there; else the site's, ai.json in site_folder(). A site's that is locked comes first.
 [[nodiscard]] std::filesystem::path ai_configuration_file();
 
 // Files of secrets and certificates are relative to the configuration's folder. Fails (ErrorKind::input)
 // naming the file and the field at fault.
 Result<AiConfiguration> read_ai_configuration(const std::filesystem::path& file);
+// The file that a user has chosen; where none is (empty), ai_configuration_file(). Fails, too, as
+// chosen_server_file().
+Result<AiConfiguration> read_chosen_ai_configuration(const std::filesystem::path& chosen);
 
 // Whether a conversation can be tried at all. Fails (ErrorKind::input) naming the field.
 Status check_ai_server(const AiServer& server);

@@ -153,8 +153,9 @@ fs::path pacs_configuration_to_read(const fs::path& own) {
 }
 
 Result<PacsConfiguration> read_chosen_pacs_configuration(const fs::path& chosen) {
-  return read_pacs_configuration(chosen.empty() ? pacs_configuration_to_read(pacs_configuration_file())
-                                                : chosen);
+  const auto file = chosen_server_file(chosen, pacs_configuration_file(), kFile);
+  if (!file) return pass_on(file);
+  return read_pacs_configuration(*file);
 }
 
 Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {
@@ -163,7 +164,7 @@ Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {
   const auto json = JsonDocument::parse(*text, file.string(), kServerFileLimits);
   if (!json) return pass_on(json);
   const JsonField root = root_of(*json, file.string());
-  root.only({"servers", "limits"});
+  root.only({"servers", "limits", "locked"});
   PacsConfiguration configuration;
   const JsonField servers = root.at("servers");
   const fs::path folder = fs::absolute(file).parent_path();
@@ -172,6 +173,7 @@ Result<PacsConfiguration> read_pacs_configuration(const fs::path& file) {
     if (configuration.server(server.name)) servers.at(i).at("name").wrong("another server has the same");
     configuration.servers.push_back(std::move(server));
   }
+  configuration.locked = read_locked(root);
   if (root.has("limits")) configuration.limits = read_limits(root.at("limits"));
   if (!root.good()) return pass_on(root.status());
   return configuration;

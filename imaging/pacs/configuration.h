@@ -51,6 +51,7 @@ struct PacsLimits {
 struct PacsConfiguration {
   std::vector<PacsServer> servers;
   PacsLimits limits;
+  bool locked = false;  // of a site whose users have no others
 
   // Fails (ErrorKind::usage) naming the servers that there are.
   [[nodiscard]] Result<PacsServer> server(const std::string& name) const;
@@ -60,13 +61,15 @@ struct PacsConfiguration {
 [[nodiscard]] std::filesystem::path pacs_configuration_file();
 
 // Which of both to read: `own` where it is there, else the site's, pacs.json in site_folder(), where that is.
+// A site's that is locked comes first.
 [[nodiscard]] std::filesystem::path pacs_configuration_to_read(const std::filesystem::path& own);
 
 // Files of certificates are relative to the configuration's folder. Fails (ErrorKind::input) naming the file
 // and the field at fault.
 Result<PacsConfiguration> read_pacs_configuration(const std::filesystem::path& file);
 
-// The file that a user has chosen; where none is (empty), the user's own or the site's.
+// The file that a user has chosen; where none is (empty), the user's own or the site's. Fails, too, as
+// chosen_server_file().
 Result<PacsConfiguration> read_chosen_pacs_configuration(const std::filesystem::path& chosen);
 
 // Makes the folder where it is missing. Fails (ErrorKind::write).

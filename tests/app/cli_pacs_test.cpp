@@ -4,6 +4,7 @@
 #include <QTest>
 #include <algorithm>
 
+#include "core/atomic_file.h"
 #include "imaging/pacs/configuration.h"
 #include "imaging/phantom/phantom.h"
 #include "tests/app/cli_runner.h"
@@ -156,6 +157,18 @@ class CliPacsTest : public QObject {
              QString());
     const Outcome refused = run_cli({"pacs", "echo", "peer"}, options);
     QVERIFY2(refused.failed_in_one_line(3) && refused.err.contains("Connection refused"), refused.told());
+
+    // A site that locks its servers leaves no other.
+    options.environment.insert("TIDEMARK_SITE", text(folder / "site"));
+    std::filesystem::create_directories(folder / "site");
+    QCOMPARE(failure(write_file(folder / "site/pacs.json", R"({"servers": [], "locked": true})")), QString());
+    const Outcome not_there = run_cli({"pacs", "echo", "peer"}, options);
+    QVERIFY2(not_there.failed_in_one_line(2) && not_there.err.contains("none is configured"),
+             not_there.told());
+    const Outcome locked =
+        run_cli({"pacs", "echo", "peer", "--servers", text(folder / "tidemark/pacs.json")}, options);
+    QVERIFY2(locked.failed_in_one_line(2) && locked.err.contains("the site has locked its servers"),
+             locked.told());
   }
 
   void what_did_not_come_ends_with_3_and_what_came_stays() {

@@ -55,6 +55,10 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
   said_->setWordWrap(true);
   said_->setTextFormat(Qt::PlainText);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Save | QDialogButtonBox::Cancel, this);
+  test_ = buttons->addButton(tr("&Test"), QDialogButtonBox::ActionRole);
+  test_->setToolTip(tr("Asks the server whether it answers"));
+  test_->setAutoDefault(false);
+  connect(test_, &QPushButton::clicked, this, &ServersDialog::test);
   connect(buttons, &QDialogButtonBox::accepted, this, &ServersDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* whole = new QVBoxLayout(this);
@@ -87,7 +91,11 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
     if (list_->currentItem() != nullptr) list_->currentItem()->setText(text);
   });
   list_->setCurrentRow(list_->count() > 0 ? 0 : -1);
-  if (list_->count() == 0) add();
+  if (configuration_.locked) {
+    lock(*buttons->button(QDialogButtonBox::Save));
+  } else if (list_->count() == 0) {
+    add();
+  }
   resize(680, 520);
 }
 
@@ -129,14 +137,6 @@ QWidget* ServersDialog::make_entry() {
   timeout_ = add_count(form, tr("Patience"), 1, 3600, tr("Seconds that it may take to answer"));
   timeout_->setSuffix(tr(" s"));
   form.wide(make_tls());
-  test_ = new QPushButton(tr("&Test"));
-  test_->setToolTip(tr("Asks the server whether it answers"));
-  test_->setAutoDefault(false);
-  connect(test_, &QPushButton::clicked, this, &ServersDialog::test);
-  auto* row = new QHBoxLayout;
-  row->addStretch(1);
-  row->addWidget(test_);
-  form.wide(row);
   connect(protocol_, &QComboBox::currentIndexChanged, this, &ServersDialog::show_protocol);
   show_protocol();
   return entry_;
@@ -213,7 +213,8 @@ QLineEdit* ServersDialog::file_line(const QString& label, const QString& tip, co
 void ServersDialog::show_entry(int row) {
   keep_entry();
   shown_ = row;
-  entry_->setEnabled(row >= 0);
+  entry_->setEnabled(row >= 0 && !configuration_.locked);
+  test_->setEnabled(row >= 0);
   if (row < 0) return;
   const imaging::PacsServer& server = configuration_.servers[static_cast<std::size_t>(row)];
   const auto text = [](const auto& value) { return QString::fromStdString(std::string(value)); };
@@ -285,6 +286,15 @@ void ServersDialog::remove() {
     delete list_->takeItem(row);
   }
   show_entry(list_->currentRow());
+}
+
+// They can be looked at and tested.
+void ServersDialog::lock(QPushButton& save) {
+  const QString why = tr("The administrator of this machine has fixed the servers.");
+  save.setEnabled(false);
+  save.setToolTip(why);
+  for (const char* name : {"add-server", "remove-server"}) findChild<QToolButton*>(name)->setEnabled(false);
+  say(why);
 }
 
 void ServersDialog::test() {

@@ -40,6 +40,7 @@ class ServersDialog : public QDialog {
   void keep_entry();  // the entered text becomes the shown server
   void add();
   void remove();
+  void lock(QPushButton& save);
   void test();
   void say(const QString& message);
 

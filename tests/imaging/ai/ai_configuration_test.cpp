@@ -92,6 +92,13 @@ class AiConfigurationTest : public QObject {
     std::filesystem::create_directories(folder / "own/tidemark");
     QCOMPARE(failure(write_file(folder / "own/tidemark/ai.json", json("{'servers': []}"))), QString());
     QCOMPARE(imaging::ai_configuration_file(), folder / "own/tidemark/ai.json");
+    // A locked one comes first, and leaves no choice.
+    QCOMPARE(failure(write_file(folder / "site/ai.json", json("{'servers': [], 'locked': true}"))),
+             QString());
+    QCOMPARE(imaging::ai_configuration_file(), folder / "site/ai.json");
+    QVERIFY(imaging::read_chosen_ai_configuration({}));
+    const auto chosen = imaging::read_chosen_ai_configuration(folder / "own/tidemark/ai.json");
+    QVERIFY2(failure(chosen).contains("the site has locked its servers"), qPrintable(failure(chosen)));
   }
 };
 

@@ -119,6 +119,8 @@ class PacsConfigurationTest : public QObject {
     QTest::newRow("no time") << server(R"(, "timeout_seconds": 0)") << "timeout_seconds: 0 is not within";
     QTest::newRow("limit of 0") << QByteArray(R"({"servers": [], "limits": {"objects": 0}})")
                                 << "limits.objects: 0 is not within";
+    QTest::newRow("locked is text") << QByteArray(R"({"servers": [], "locked": "yes"})")
+                                    << "locked: neither true nor false";
     QTest::newRow("verify is text") << server(R"(, "tls": {"verify": "no"})") << "neither true nor false";
   }
   void what_is_wrong_is_named() {
@@ -165,6 +167,37 @@ class PacsConfigurationTest : public QObject {
     QTest::newRow("nothing") << "^^^=="
                              << "";
   }
+  // A site that locks its servers leaves its users no others.
+  void a_locked_file_of_the_site_comes_first() {
+    const TemporaryFolder folder;
+    const Variable site("TIDEMARK_SITE", QByteArray::fromStdString((folder / "site").string()));
+    std::filesystem::create_directories(folder / "site");
+    const auto own = folder / "own.json";
+    const auto of_site = folder / "site/pacs.json";
+    const QByteArray server = R"({"servers": [{"name": "s", "host": "h", "ae_title": "A"}])";
+    write(own, R"({"servers": []})");
+    write(of_site, server + "}");
+    QCOMPARE(imaging::pacs_configuration_to_read(own), own);
+    QCOMPARE(imaging::read_chosen_pacs_configuration(own)->servers.size(), std::size_t{0});
+
+    for (const QByteArray& said : {server + R"(, "locked": true})", server + R"(, "locked": 1})", server}) {
+      write(of_site, said);
+      QCOMPARE(imaging::pacs_configuration_to_read(own), of_site);
+      const auto chosen = imaging::read_chosen_pacs_configuration(own);
+      QVERIFY(!chosen);
+      QCOMPARE(chosen.error().kind, ErrorKind::usage);
+      QCOMPARE(failure(chosen),
+               QString("%1: is not read: the site has locked its servers, %2")
+                   .arg(QString::fromStdString(own.string()), QString::fromStdString(of_site.string())));
+    }
+    write(of_site, server + R"(, "locked": true})");
+    const auto read = imaging::read_chosen_pacs_configuration({});
+    QCOMPARE(failure(read), QString());
+    QVERIFY(read->locked);
+    write(of_site, server + R"(, "locked": false})");
+    QCOMPARE(imaging::pacs_configuration_to_read(own), own);
+  }
+
   void names_are_readable() {
     QFETCH(QString, dicom_name);
     QFETCH(QString, readable);

@@ -1,7 +1,10 @@
 // The servers, entered, tested, kept and removed by hand.
 #include "ui/pacs/servers_dialog.h"
 
+#include <fmt/format.h>
+
 #include <QDialogButtonBox>
+#include <QListWidget>
 #include <QTest>
 #include <QToolButton>
 
@@ -181,6 +184,38 @@ class ServersDialogTest : public QObject {
     click_save(dialog);
     QVERIFY(dialog.isVisible());
     QVERIFY(!imaging::read_pacs_configuration(file));
+  }
+
+  void servers_that_the_site_has_locked_are_shown_and_not_changed() {
+    const StoringPeer peer({"+xa"});
+    const TemporaryFolder folder;
+    const Variable site("TIDEMARK_SITE", QByteArray::fromStdString(folder.path().string()));
+    const std::string locked = fmt::format(
+        R"({{"locked": true, "servers": [{{"name": "ward", "host": "localhost", "port": {}, "ae_title": "STORESCP"}},
+            {{"name": "other", "host": "o", "ae_title": "O", "retrieve": "move"}}]}})",
+        peer.server().port);
+    QCOMPARE(failure(write_file(folder / "pacs.json", locked)), QString());
+    const auto own = folder / "own.json";
+    QCOMPARE(failure(write_file(own, R"({"servers": []})")), QString());
+    ui::ServersDialog dialog(own);
+    dialog.show();
+    QVERIFY(says(dialog, "The administrator of this machine has fixed the servers."));
+    auto* list = dialog.findChild<QListWidget*>();
+    for (int row = list->count() - 1; row >= 0; --row) {
+      list->setCurrentRow(row);
+      for (const QLineEdit* one : dialog.findChildren<QLineEdit*>()) QVERIFY(!one->isEnabled());
+      for (const QComboBox* one : dialog.findChildren<QComboBox*>()) QVERIFY(!one->isEnabled());
+    }
+    QCOMPARE(line(dialog, "Name")->text(), QString("ward"));
+    click_test(dialog);
+    QTRY_VERIFY_WITH_TIMEOUT(says(dialog, "The server answers in"), kPatience);
+    for (const char* name : {"add-server", "remove-server"})
+      QTest::mouseClick(dialog.findChild<QToolButton*>(name), Qt::LeftButton);
+    QCOMPARE(list->count(), 2);
+    QTest::keyClick(&dialog, Qt::Key_Return);
+    click_save(dialog);
+    QVERIFY(dialog.isVisible());
+    QCOMPARE(bytes_of(own), QByteArray(R"({"servers": []})"));
   }
 };
 
