@@ -70,12 +70,16 @@ Status CaseMeter::measure(const ReadPhi& read_phi, document::Case& document, boo
   if (thoroughly) {
     wider_range_ = wider_range(evolved);
     inside_ = inside_meter_.measure(document.volume(), *phi_);
-    const auto by_label = label_meter_.measure(document.volume(), document.labels().voxels());
-    labels_.clear();
-    for (const document::Label& label : document.labels().list()) labels_.push_back(by_label[label.id]);
   }
   thorough_ = thoroughly;
   return {};
+}
+
+void CaseMeter::follow_labels(const document::Case& document) {
+  const document::Labels& labels = document.labels();
+  if (label_revision_ == labels.revision()) return;
+  labels_ = label_meter_.measure(document.volume(), labels.voxels());
+  label_revision_ = labels.revision();
 }
 
 void CaseMeter::report(CaseState& state) const {
@@ -87,8 +91,7 @@ void CaseMeter::report(CaseState& state) const {
   state.surface = surface_;
   state.dice = dice_;
   state.inside = inside_;
-  state.label_statistics = labels_;
-  state.label_statistics.resize(state.labels.size());
+  for (const document::Label& label : state.labels) state.label_statistics.push_back(labels_[label.id]);
   state.solver_steps_per_second = seconds_per_step_ > 0.0 ? 1.0 / seconds_per_step_ : 0.0;
   state.steps_per_second = 0.0;
   if (state.playing && laps_.size() > 1) {

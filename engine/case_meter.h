@@ -31,7 +31,6 @@ class CaseMeter {
   void set_converged(bool converged) { converged_ = converged; }
   // After any other change on which figures depend.
   void adjusted();
-  void labels_changed() { thorough_ = false; }
 
   [[nodiscard]] double seconds_per_step() const { return seconds_per_step_; }
   [[nodiscard]] bool converged() const { return converged_; }
@@ -40,10 +39,12 @@ class CaseMeter {
   // times a second and at least once.
   [[nodiscard]] bool due() const { return Clock::now() >= due_at_; }
   // Measures the phi that `read_phi` gives (slow where it is on a GPU), and adds the figures to the level
-  // set's curve. `thoroughly`: also the volume's values under the surface, beside it, and in the labels.
+  // set's curve. `thoroughly`: also the volume's values under the surface and beside it.
   using ReadPhi = std::function<Result<std::shared_ptr<const solver::Field>>()>;
   Status measure(const ReadPhi& read_phi, document::Case& document, bool thoroughly);
   [[nodiscard]] bool thorough() const { return thorough_; }
+  // Measures the labels where they are others than before: old figures beside new labels would mislead.
+  void follow_labels(const document::Case& document);
 
   // Fills in the measured figures.
   void report(CaseState& state) const;
@@ -70,8 +71,9 @@ class CaseMeter {
   document::InsideStatistics inside_meter_;
   document::RegionStatistics inside_;
   document::LabelStatistics label_meter_;
-  std::vector<document::RegionStatistics> labels_;
-  std::optional<TruthOverlap> overlap_;  // where there is a truth
+  std::optional<std::uint64_t> label_revision_;     // of those that are measured
+  std::vector<document::RegionStatistics> labels_;  // by their numbers
+  std::optional<TruthOverlap> overlap_;             // where there is a truth
   std::optional<double> dice_;
 };
 

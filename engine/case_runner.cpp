@@ -151,7 +151,6 @@ void CaseRunner::compare_with(std::shared_ptr<const Mask> truth) {
 
 Status CaseRunner::report_labels(Status outcome) {
   painter_.look_changed();
-  meter_.labels_changed();
   return outcome;
 }
 
@@ -299,10 +298,11 @@ void CaseRunner::draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token sto
 
 // Figures.
 
+// It comes before better pictures, and in turn with the steps of other cases.
 void CaseRunner::post_measurement() {
   if (playing_ || meter_.thorough() || std::exchange(measurement_waits_, true)) return;
   engine_.post(
-      Priority::background, this,
+      Priority::step, this,
       [self = shared_from_this()](const std::stop_token&) {
         self->measurement_waits_ = false;
         if (!self->case_ || self->playing_) return;
@@ -373,8 +373,9 @@ void CaseRunner::publish() {
   state.open_change = case_->history().open_state();
   state.modified = case_->changed_since_save() || restored_.rescued;
   state.edits = case_->history().edits();
-  state.start_text = QString::fromStdString(recipe.start.describe());
+  state.start_text = message_text(recipe.start.describe());
   state.limit = recipe.start.limit();
+  meter_.follow_labels(*case_);
   meter_.report(state);
   post_.send(std::move(state));
 }

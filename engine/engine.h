@@ -28,9 +28,9 @@ namespace tidemark::engine {
 enum class Priority {
   edit,        // what a user did: always first, so that it is seen in the next picture
   picture,     // pictures to be seen now
-  step,        // a chunk of steps of a level set that plays
+  step,        // a chunk of steps of a level set that plays; figures of one that rests
   refine,      // better pictures of views in which nothing moves
-  background,  // measurements and checkpoints
+  background,  // states of the history, and checkpoints
 };
 
 // A queue of small jobs, drained by one thread that owns the context, the executors and the renderers.

@@ -21,6 +21,23 @@ std::int64_t count(const SharedSlices& voxels, const std::array<bool, 256>& labe
   return count;
 }
 
+// Null: no voxel has a label before.
+bool changes(const SharedSlices* before, const SharedSlices& after) {
+  const SharedSlices none(after.size());
+  const SharedSlices& then = before ? *before : none;
+  const auto differ = [&](std::int64_t k) {
+    const auto a = then.slice(k);
+    const auto b = after.slice(k);
+    if (a.empty() || b.empty()) {
+      const auto& there = a.empty() ? b : a;
+      return std::any_of(there.begin(), there.end(), [](std::uint8_t id) { return id != 0; });
+    }
+    return !std::equal(a.begin(), a.end(), b.begin());
+  };
+  const auto slices = after.differing_slices(then);
+  return std::any_of(slices.begin(), slices.end(), differ);
+}
+
 Result<Preview> computed(LabelPreview preview, const Progress& progress) {
   const document::LabelVoxels& from = preview.from;
   auto regions = document::use_tool(preview.use, preview.labels, from, progress);
@@ -35,6 +52,7 @@ Result<Preview> computed(LabelPreview preview, const Progress& progress) {
   const double voxel_ml = from.geometry.voxel_volume_ml();
   if (from.voxels) preview.before_ml = static_cast<double>(count(*from.voxels, changed)) * voxel_ml;
   preview.after_ml = static_cast<double>(accepted->taken) * voxel_ml;
+  preview.changes = changes(preview.from.voxels.get(), after->voxels());
   preview.after = std::move(after);
   return std::make_shared<const LabelPreview>(std::move(preview));
 }
@@ -59,7 +77,9 @@ void LabelFinisher::begin(const document::LabelToolUse& use, const std::vector<s
 }
 
 bool LabelFinisher::is_current() const {
-  return preview_ != nullptr && preview_->from.voxels == proxy_.state().label_voxels;
+  const CaseState& state = proxy_.state();
+  return preview_ != nullptr && preview_->from.voxels == state.label_voxels &&
+         preview_->from.list == state.labels;
 }
 
 void LabelFinisher::clear() {

@@ -16,6 +16,7 @@ struct LabelPreview {
   document::Take take = document::Take::free_voxels;
   std::vector<document::LabelRegion> regions;
   std::shared_ptr<const document::Labels> after;  // all labels as they would be; null while a stroke is drawn
+  bool changes = true;                            // whether any voxel would change
   double before_ml = 0.0;                         // of all labels that change
   double after_ml = 0.0;                          // of all that they would become
 };

@@ -18,12 +18,13 @@ SliceSlab::SliceSlab(const Geometry& geometry, glm::dvec3 point_mm, glm::dvec3 n
     thickness_mm += share[axis] * share[axis] * geometry.spacing_mm[axis];
   }
   from_mm_ = glm::dot(geometry.origin_mm - point_mm, normal);
-  // A plane half way between two slices belongs to one of them, whatever the rounding.
-  constexpr double kTie = 1e-6;
   half_mm_ = 0.5 * thickness_mm;
-  from_mm_ += kTie * thickness_mm;
   std::ranges::stable_sort(axes_, {}, [&](int axis) { return std::abs(share[axis]); });
   std::sort(axes_.begin(), axes_.begin() + 2);
+  // A plane half way between two slices belongs to the one that pictures show, the upper one of the grid,
+  // whatever the rounding.
+  constexpr double kTie = 1e-6;
+  from_mm_ -= std::copysign(kTie * thickness_mm, per_voxel_mm_[axes_[2]]);
 }
 
 double SliceSlab::finest_mm() const {

@@ -10,6 +10,7 @@
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/surface/surface.h"
+#include "solver/speed/speed_registry.h"
 #include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
 #include "ui/panels/region_table.h"
@@ -44,12 +45,22 @@ QImage picture_of(CaseWindow& window, PictureView& view) {
   return image;
 }
 
+// The functions by the names that the panel has for them.
+QString driven_by(const document::Drive& drive) {
+  QStringList parts;
+  for (const solver::SpeedTerm& term : drive.setting.terms) {
+    const solver::SpeedKind* kind = solver::speed_kind(term.function);
+    parts << engine::message_text(std::string(kind ? kind->title : term.function));
+  }
+  if (drive.constraints) parts << CaseExports::tr("walls and anchors");
+  return parts.join(QStringLiteral(", "));
+}
+
 std::vector<std::pair<QString, QString>> parameters_of(const engine::CaseProxy& proxy) {
   const engine::CaseState& state = proxy.state();
   if (!state.begun) return {};
   std::vector<std::pair<QString, QString>> parameters{
-      {CaseExports::tr("Start"), state.start_text},
-      {CaseExports::tr("Driven by"), engine::message_text(document::describe(proxy.drive()))}};
+      {CaseExports::tr("Start"), state.start_text}, {CaseExports::tr("Driven by"), driven_by(proxy.drive())}};
   if (document::uses_tent(proxy.drive())) {
     const QString unit = value_unit(proxy.volume());
     parameters.emplace_back(CaseExports::tr("Target T"), number_text(state.parameters.target, 1, unit));

@@ -20,15 +20,12 @@ namespace {
 
 // A name that has none of the endings of a filter ("NIfTI (*.nii.gz *.nii)") gets the first: the suffix says
 // which format is written, and a name may have dots of its own.
-QString with_suffix(const QString& file, const QString& filter) {
+QString with_suffix(const QString& file, const QString& chosen, const QString& all) {
   static const QRegularExpression kEnding(QStringLiteral("\\*(\\.[\\w.]+)"));
-  QString first;
-  for (auto endings = kEnding.globalMatch(filter); endings.hasNext();) {
-    const QString ending = endings.next().captured(1);
-    if (file.endsWith(ending, Qt::CaseInsensitive)) return file;
-    if (first.isEmpty()) first = ending;
+  for (auto endings = kEnding.globalMatch(all); endings.hasNext();) {
+    if (file.endsWith(endings.next().captured(1), Qt::CaseInsensitive)) return file;
   }
-  return file + first;
+  return file + kEnding.match(chosen).captured(1);
 }
 
 // The work, which writes a file of a study.
@@ -59,7 +56,7 @@ QString CaseFiles::ask_for_file(CaseWindow& window, const QString& title, const 
   dialog.selectFile(file_name_of(window.proxy().study()));
   if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
   const QString named = dialog.selectedFiles().first();
-  const QString file = with_suffix(named, dialog.selectedNameFilter());
+  const QString file = with_suffix(named, dialog.selectedNameFilter(), suffixes);
   // The dialog has asked about the name as it was typed.
   if (file != named && QFileInfo::exists(file) &&
       QMessageBox::question(&window_, title, tr("%1 exists. Replace it?").arg(file),

@@ -40,7 +40,9 @@ PictureView* view_of(const QDockWidget* dock) {
 engine::DisplaySettings first_settings(const engine::CaseProxy& proxy) {
   const Volume& volume = proxy.volume();
   engine::DisplaySettings settings;
-  settings.cursor_mm = settings.slice_centre_mm = renderer::middle_of(volume.geometry);
+  settings.slice_centre_mm = renderer::middle_of(volume.geometry);
+  // On slices, not between the middle two.
+  settings.cursor_mm = volume.geometry.to_patient(glm::dvec3(volume.geometry.size / Index3(2)));
   if (const auto& start = proxy.study().start; start && start->seed) {
     // The start that suits the phantom.
     const auto& seed = *start->seed;

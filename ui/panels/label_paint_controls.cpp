@@ -92,17 +92,14 @@ void LabelPaintControls::read_values() {
 }
 
 void LabelPaintControls::set_label(std::uint8_t label) {
-  label_ = label;
-  change_brush([&](engine::LabelBrush& brush) { brush.label = label_; });
+  change_brush([&](engine::LabelBrush& brush) { brush.label = label; });
 }
 
 void LabelPaintControls::set_take(document::Take take) {
-  take_ = take;
-  change_brush([&](engine::LabelBrush& brush) { brush.take = take_; });
+  change_brush([&](engine::LabelBrush& brush) { brush.take = take; });
 }
 
 void LabelPaintControls::attach() {
-  set_take(take_);
   if (!proxy()) return show_brush();
   const engine::SourceSummary& summary = proxy()->summary();
   // T ± ε may reach beyond all values.

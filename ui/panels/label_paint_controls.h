@@ -40,8 +40,6 @@ class LabelPaintControls : public CaseWidget {
   QToolButton* limited_;
   SliderNumber* low_;
   SliderNumber* high_;
-  std::uint8_t label_ = 0;
-  document::Take take_ = document::Take::free_voxels;
 };
 
 }  // namespace tidemark::ui

@@ -233,7 +233,7 @@ void LabelToolControls::look() {
   if (labels_.empty()) return say(tr("Choose a label in the table."));
   if (tool() == LabelTool::watershed && other_->count() == 0)
     return say(tr("Add another label and paint the seeds with it."));
-  looked_at_ = proxy()->state().label_voxels;
+  looked_at_ = {proxy()->state().label_voxels, proxy()->state().labels};
   work_->begin(tr("Preview"));
   finisher()->begin(use(), labels_, take_);
   show_buttons();
@@ -242,6 +242,7 @@ void LabelToolControls::look() {
 void LabelToolControls::show_preview() {
   const auto& preview = finisher() ? finisher()->preview() : nullptr;
   if (!preview || !tool()) return say({});
+  if (!preview->changes) return say(tr("It would change nothing."));
   const double change = preview->after_ml - preview->before_ml;
   say(tr("%1 ml become %2 ml (%3%4 ml).")
           .arg(number_text(preview->before_ml, 2), number_text(preview->after_ml, 2),
@@ -254,8 +255,8 @@ void LabelToolControls::say(const QString& text) {
 }
 
 void LabelToolControls::show_buttons() {
-  apply_->setEnabled(finisher() && tool() && finisher()->is_current() && !finisher()->busy() &&
-                     !soon_.isActive());
+  apply_->setEnabled(finisher() && tool() && finisher()->is_current() && finisher()->preview()->changes &&
+                     !finisher()->busy() && !soon_.isActive());
 }
 
 void LabelToolControls::attach() {
@@ -278,7 +279,8 @@ void LabelToolControls::attach() {
 
 void LabelToolControls::refresh() {
   fill_others();
-  if (tool() && looked_at_ != proxy()->state().label_voxels) look_again();
+  const engine::CaseState& state = proxy()->state();
+  if (tool() && looked_at_ != LookedAt{state.label_voxels, state.labels}) look_again();
   show_buttons();
 }
 

@@ -53,8 +53,14 @@ class LabelToolControls : public CaseWidget {
   QTimer soon_;
   document::Take take_ = document::Take::free_voxels;
   std::vector<std::uint8_t> labels_;
-  std::shared_ptr<const SharedSlices> looked_at_;  // the voxels that the preview is of
-  QPointer<engine::LabelFinisher> shown_;          // to which this is connected
+  // What the preview is of.
+  struct LookedAt {
+    std::shared_ptr<const SharedSlices> voxels;
+    std::vector<document::Label> labels;  // with their locks
+    bool operator==(const LookedAt&) const = default;
+  };
+  LookedAt looked_at_;
+  QPointer<engine::LabelFinisher> shown_;  // to which this is connected
 };
 
 }  // namespace tidemark::ui

@@ -217,7 +217,10 @@ void LabelsPanel::attach() {
   Panel::attach();
   choose_new_ = false;
   disconnect(choices_);
-  if (!proxy()) return model_->show({}, {});
+  // The rows of the case before choose nothing in this one.
+  model_->show({}, {});
+  if (!proxy()) return;
+  take_all_->setChecked(proxy()->display().label_brush().take == document::Take::others_too);
   choices_ = connect(&proxy()->display(), &engine::Display::label_chosen, this, &LabelsPanel::choose);
 }
 
@@ -231,7 +234,8 @@ void LabelsPanel::choose(std::uint8_t label) {
 void LabelsPanel::refresh() {
   const engine::CaseState& state = proxy()->state();
   const int before = model_->rowCount();
-  const int was = chosen() ? chosen()->id : 0;  // 0: none
+  const document::Label* label = before > 0 ? chosen() : proxy()->chosen_label();
+  const int was = label ? label->id : 0;  // 0: none
   model_->show(state.labels, state.label_statistics);
   const int rows = model_->rowCount();
   if (rows != before) {

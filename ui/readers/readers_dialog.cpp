@@ -31,6 +31,15 @@ constexpr int kShareDecimals = 3;   // decimals of shares of 1
 constexpr int kAmountDecimals = 2;  // of ml and mm
 constexpr int kDiceColumn = 2;
 
+// Whether a voxel of the region has no label.
+bool has_free_voxel(const Region& region, const SharedSlices& labels) {
+  bool is_free = false;
+  region.for_each_run([&](Index3 voxel, std::int64_t length) {
+    for (std::int64_t i = 0; i < length && !is_free; ++i) is_free = labels.at(voxel + Index3(i, 0, 0)) == 0;
+  });
+  return is_free;
+}
+
 std::vector<ReaderTable::Column> pair_columns() {
   return {{ReadersDialog::tr("First"), {}},
           {ReadersDialog::tr("Second"), {}},
@@ -273,6 +282,9 @@ void ReadersDialog::take_estimate(std::shared_ptr<const imaging::TruthEstimate> 
 }
 
 void ReadersDialog::keep_estimate() {
+  const auto& labels = proxy().state().label_voxels;
+  if (!take_all_->isChecked() && labels && !has_free_voxel(results_.estimate->region, *labels))
+    return rest(tr("All of it lies in other labels: tick the box to take their voxels."));
   keeping_ = tr("Estimate of %1 readers").arg(results_.names.size());
   auto regions = std::make_shared<std::vector<document::LabelRegion>>();
   regions->push_back({0, keeping_.toStdString(), results_.estimate->region});

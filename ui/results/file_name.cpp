@@ -31,12 +31,15 @@ QString file_name_of(const QString& text) {
 }
 
 QString file_name_of(const engine::LoadedStudy& study) {
+  static const QRegularExpression kEnding(
+      QStringLiteral("\\.(nii|gipl|nrrd|nhdr|mha|mhd|dcm|png|jpe?g|tiff?)(\\.gz)?$"),
+      QRegularExpression::CaseInsensitiveOption);
   QString name = study.name;
   const bool is_phantom = !study.origin.phantom.empty();
   if (!is_phantom && tells_the_patient(name, study.patient)) {
     name = QString::fromStdString(study.volume->modality + " " + study.date);
   }
-  return file_name_of(name);
+  return file_name_of(name.remove(kEnding));
 }
 
 bool is_of_study(const engine::LoadedStudy& study, const std::filesystem::path& file) {

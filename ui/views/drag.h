@@ -44,6 +44,8 @@ class Drag {
   // press().
   [[nodiscard]] virtual bool lifted() { return false; }
   [[nodiscard]] virtual bool is_of_clicks() const { return false; }
+  // Whether nothing has happened before its end, so that Escape gives it up while the button is down.
+  [[nodiscard]] virtual bool acts_at_its_end() const { return false; }
   virtual void press(const Pointer& /*pointer*/) {}
   virtual void release() {}                                  // at its end
   virtual void paint(QPainter& /*painter*/) const {}         // over the view, while it lasts

@@ -34,12 +34,14 @@ void Gesture::lift(bool counts) {
   stop();
 }
 
-bool Gesture::is_key(int key) {
-  return key == Qt::Key_Escape || key == Qt::Key_Return || key == Qt::Key_Enter;
+bool Gesture::takes(int key) const {
+  const bool gives_up = key == Qt::Key_Escape;
+  const bool ends = key == Qt::Key_Return || key == Qt::Key_Enter;
+  return waits_for_click() ? gives_up || ends : gives_up && drag_ && drag_->acts_at_its_end();
 }
 
 void Gesture::press_key(int key) {
-  if (!is_key(key)) return;
+  if (!takes(key)) return;
   if (key != Qt::Key_Escape) drag_->release();
   stop();
 }

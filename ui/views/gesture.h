@@ -29,14 +29,14 @@ class Gesture {
   void press(const Pointer& pointer);
   // The button is up. `counts`: the drag has its effect.
   void lift(bool counts);
-  // Return ends a gesture of clicks, and Escape gives it up.
+  // Return ends a gesture of clicks. Escape gives up that, and a drag that acts at its end.
   void press_key(int key);
-  [[nodiscard]] static bool is_key(int key);
-
   [[nodiscard]] Drag* drag() const { return drag_.get(); }
   [[nodiscard]] Qt::MouseButton button() const { return button_; }  // that is held down
   [[nodiscard]] bool is_held() const { return button_ != Qt::NoButton; }
   [[nodiscard]] bool waits_for_click() const { return drag_ && !is_held(); }
+  // Whether keys are its own now.
+  [[nodiscard]] bool takes(int key) const;
   // Whether the last one was of clicks. The second click of a double click asks once.
   [[nodiscard]] bool take_ended_by_click() { return std::exchange(ended_by_click_, false); }
 

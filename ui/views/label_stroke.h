@@ -14,6 +14,7 @@ class LabelStroke : public Drag {
  public:
   LabelStroke(DragView view, const Pointer& pressed);
   ~LabelStroke() override;
+  [[nodiscard]] bool acts_at_its_end() const override { return true; }
   void release() override;
   [[nodiscard]] QString text() const override;
 

@@ -13,6 +13,7 @@ class ExampleDrag : public Drag {
   ExampleDrag(DragView view, const Pointer& pressed);
   ~ExampleDrag() override;
   void move(const Pointer& pointer) override;
+  [[nodiscard]] bool acts_at_its_end() const override { return true; }
   void release() override;
   [[nodiscard]] QString text() const override;
 
@@ -32,6 +33,7 @@ class ConstraintDrag : public Drag {
   ConstraintDrag(DragView view, const Pointer& pressed);
   ~ConstraintDrag() override;
   void move(const Pointer& pointer) override;
+  [[nodiscard]] bool acts_at_its_end() const override { return true; }
   void release() override;
 
  private:

@@ -1,6 +1,8 @@
 #include "ui/views/picture_view.h"
 
 #include <QKeyEvent>
+#include <QMdiArea>
+#include <QMdiSubWindow>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
@@ -48,6 +50,15 @@ Qt::CursorShape cursor_for(engine::Tool tool) {
       return Qt::WhatsThisCursor;
   }
   return Qt::ArrowCursor;
+}
+
+// Of a case; true outside of any.
+bool is_in_active_window(const QWidget& view) {
+  for (QWidget* parent = view.parentWidget(); parent; parent = parent->parentWidget()) {
+    auto* window = qobject_cast<QMdiSubWindow*>(parent);
+    if (window && window->mdiArea()) return window->mdiArea()->activeSubWindow() == window;
+  }
+  return true;
 }
 
 }  // namespace
@@ -124,6 +135,8 @@ void PictureView::ask() {
 void PictureView::follow_display() {
   gesture_.keep_to(ground());
   setCursor(cursor_at(mouse_));
+  // Another slice has come under the mouse.
+  if (underMouse() && slab()) display().set_pointer(patient_at(mouse_));
   ask();
   follow_forces();
   paint_again();
@@ -250,9 +263,9 @@ void PictureView::showEvent(QShowEvent* event) {
 }
 
 bool PictureView::event(QEvent* event) {
-  // Between the clicks of a gesture keys are the gesture's, before they are those of actions.
-  if (event->type() == QEvent::ShortcutOverride && gesture_.waits_for_click() &&
-      Gesture::is_key(static_cast<const QKeyEvent*>(event)->key()))
+  // In a gesture keys are the gesture's, before they are those of actions.
+  if (event->type() == QEvent::ShortcutOverride &&
+      gesture_.takes(static_cast<const QKeyEvent*>(event)->key()))
     event->accept();
   // Another screen has other pixels.
   if (event->type() == QEvent::ScreenChangeInternal) ask();
@@ -282,7 +295,9 @@ std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
   }
   const bool with_tool = pressed.button == Qt::LeftButton ||
                          (pressed.button == Qt::RightButton && engine::has_right_button(tool));
-  if (with_tool) {
+  // The press that makes another case active changes nothing in it.
+  const bool brings_forward = std::exchange(brings_forward_, false) && engine::has_right_button(tool);
+  if (with_tool && !brings_forward) {
     if (auto drag = tool_drag(tool, drag_view(), pressed)) return drag;
   }
   return navigation_drag(pressed);
@@ -374,6 +389,8 @@ void PictureView::leaveEvent(QEvent* event) {
 
 void PictureView::focusInEvent(QFocusEvent* event) {
   QWidget::focusInEvent(event);
+  // The window of the case comes to the front after this.
+  brings_forward_ = event->reason() == Qt::MouseFocusReason && !is_in_active_window(*this);
   emit activated();
 }
 
@@ -404,7 +421,7 @@ void PictureView::wheelEvent(QWheelEvent* event) {
 }
 
 void PictureView::keyPressEvent(QKeyEvent* event) {
-  if (gesture_.waits_for_click()) {
+  if (gesture_.waits_for_click() || gesture_.takes(event->key())) {
     gesture_.press_key(event->key());
     return paint_again();
   }

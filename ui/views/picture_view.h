@@ -131,8 +131,9 @@ class PictureView : public QWidget {
   QPointF pressed_at_;
   bool may_be_click_ = false;  // the right button is down, and the mouse has not moved yet
   engine::ForceSampler forces_;
-  bool explaining_ = false;  // a place is being looked for
-  int wheel_remainder_ = 0;  // of mice that turn by less than a click
+  bool explaining_ = false;      // a place is being looked for
+  bool brings_forward_ = false;  // the press that follows makes the case active
+  int wheel_remainder_ = 0;      // of mice that turn by less than a click
 };
 
 }  // namespace tidemark::ui

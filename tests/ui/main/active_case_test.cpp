@@ -37,6 +37,7 @@ class ActiveCaseTest : public QObject {
   void keys_of_panels_keep_the_case();
   void what_is_done_to_a_case_window_changes_the_case();
   void a_case_that_closes_hands_over_to_the_other();
+  void the_press_that_activates_a_case_changes_nothing_in_it();
 
  private:
   // Which case is active, how windows stand.
@@ -345,6 +346,22 @@ void ActiveCaseTest::what_is_done_to_a_case_window_changes_the_case() {
   for (const int which : {0, 1, 0}) {
     click(*bar, bar->tabRect(which).center());
     QCOMPARE(active(), cases_[which]);
+  }
+}
+
+void ActiveCaseTest::the_press_that_activates_a_case_changes_nothing_in_it() {
+  const auto edits = [&](int of) { return cases_[of]->proxy().state().edits; };
+  for (const engine::Tool tool : {engine::Tool::seed, engine::Tool::label, engine::Tool::paint}) {
+    begin_with(0, false);
+    cases_[1]->proxy().display().choose_tool(tool);
+    desktop_->wait_until_idle();
+    const auto before = edits(1);
+    click_view(1);
+    QCOMPARE(active(), cases_[1]);
+    QCOMPARE(edits(1), before);
+    click_view(1);
+    QVERIFY(edits(1) > before);
+    cases_[1]->proxy().display().choose_tool(engine::Tool::crosshair);
   }
 }
 

@@ -2,6 +2,8 @@
 #include <QAbstractButton>
 #include <QComboBox>
 #include <QLabel>
+#include <QMdiArea>
+#include <QMdiSubWindow>
 #include <QTableView>
 
 #include "engine/label_finisher.h"
@@ -22,6 +24,9 @@ class FinishLabelsStoryTest : public QObject {
   void a_label_grows_is_smoothed_and_split();
   void a_label_is_split_between_seeds();
   void a_tool_works_on_the_case_that_is_seen();
+  void a_preview_follows_the_locks_of_labels();
+  void each_tool_has_its_amount_after_any_other();
+  void each_case_keeps_its_chosen_label();
 
  private:
   // By keys, until it is the current one.
@@ -164,6 +169,76 @@ void FinishLabelsStoryTest::a_tool_works_on_the_case_that_is_seen() {
   QCOMPARE(seen<QComboBox>(panel, "Tool")->currentText(), QString("None"));
   QVERIFY(!first->proxy().label_finisher().preview());
   QVERIFY(!desktop.proxy().label_finisher().preview());
+}
+
+void FinishLabelsStoryTest::a_preview_follows_the_locks_of_labels() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  make_label(desktop, panel);
+  const auto lock = [&](bool locked) {
+    document::Label label = desktop.state().labels.front();
+    label.locked = locked;
+    desktop.proxy().set_label(label);
+    desktop.wait_until_idle();
+  };
+  choose(panel, "Tool", "Grow");
+  wait_for_preview(desktop, panel);
+  auto* apply = seen<QAbstractButton>(panel, "Apply to labels");
+  lock(true);
+  QVERIFY(Desktop::wait_for([&] { return says(panel, "is locked"); }));
+  QVERIFY(!apply->isEnabled());
+  lock(false);
+  wait_for_preview(desktop, panel);
+  // An amount below a voxel changes nothing, and is not applied.
+  type_amount(panel, "0.3");
+  QVERIFY(Desktop::wait_for([&] { return says(panel, "It would change nothing."); }));
+  QVERIFY(!apply->isEnabled());
+}
+
+void FinishLabelsStoryTest::each_tool_has_its_amount_after_any_other() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  make_label(desktop, panel);
+  for (const char* before : {"Intersect", "Mirror", "Fill holes"}) {
+    choose(panel, "Tool", before);
+    Desktop::wait_for([&] { return seen<QAbstractButton>(panel, "Apply to labels")->isEnabled(); }, 2000);
+    QTest::mouseClick(seen<QAbstractButton>(panel, "Apply to labels"), Qt::LeftButton, {}, {8, 8});
+    desktop.wait_until_idle();
+    choose(panel, "Tool", "Grow");
+    QVERIFY2(find_seen<ui::NumberBox>(panel, "Amount"), before);
+    choose(panel, "Tool", "None");
+  }
+}
+
+void FinishLabelsStoryTest::each_case_keeps_its_chosen_label() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  auto* first = desktop.window().active_case();
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  for (int i = 0; i < 3; ++i) click(desktop, panel, "Add");
+  auto* table = panel.findChild<QTableView*>();
+  const auto click_row = [&](int row) {
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                      table->visualRect(table->model()->index(row, ui::LabelsModel::volume)).center());
+    desktop.wait_until_idle();
+  };
+  const auto row = [&] { return table->selectionModel()->selectedRows().value(0).row(); };
+  click_row(1);
+  seen<QAbstractButton>(panel, "Take voxels of other labels")->click();
+  auto* second = desktop.open_phantom("dumbbell");
+  for (int i = 0; i < 3; ++i) click(desktop, panel, "Add");
+  QVERIFY(!seen<QAbstractButton>(panel, "Take voxels of other labels")->isChecked());
+  click_row(0);
+  for (auto* window : {first, second, first}) {
+    desktop.window().findChild<QMdiArea*>()->setActiveSubWindow(
+        qobject_cast<QMdiSubWindow*>(window->parentWidget()));
+    desktop.wait_until_idle();
+    QCOMPARE(row(), window == first ? 1 : 0);
+    QCOMPARE(window->proxy().chosen_label(), &window->proxy().state().labels[window == first ? 1 : 0]);
+    QCOMPARE(seen<QAbstractButton>(panel, "Take voxels of other labels")->isChecked(), window == first);
+  }
 }
 
 TIDEMARK_TEST(FinishLabelsStoryTest)

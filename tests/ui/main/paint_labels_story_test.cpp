@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "imaging/files/volume_file.h"
+#include "tests/support/grid.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/labels_desktop.h"
@@ -22,6 +24,8 @@ class PaintLabelsStoryTest : public QObject {
   void a_livewire_follows_the_edge_between_clicks();
   void only_voxels_with_certain_values_are_painted();
   void a_label_is_chosen_where_it_is_seen();
+  void a_stroke_lies_in_the_slice_that_is_seen();
+  void escape_gives_a_stroke_up();
 
  private:
   static void undo(Desktop& desktop) {
@@ -323,6 +327,72 @@ void PaintLabelsStoryTest::only_voxels_with_certain_values_are_painted() {
   QVERIFY(!find_seen<ui::NumberBox>(panel, "From"));
   square();
   QVERIFY(region(desktop, 1).count() > most);
+}
+
+// Of an even number of slices none lies in the middle.
+void PaintLabelsStoryTest::a_stroke_lies_in_the_slice_that_is_seen() {
+  const TemporaryFolder folder;
+  const auto file = folder / "even.nii.gz";
+  Volume volume;
+  volume.geometry = grid_of({40, 48, 30}, {1.0, 1.5, 3.0});
+  std::vector<std::int16_t> values(static_cast<std::size_t>(volume.geometry.voxel_count()));
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::int16_t>(i % 97);
+  volume.voxels = std::move(values);
+  QCOMPARE(failure(imaging::write_volume_file(volume, file)), QString());
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open(QString::fromStdString(file.string())));
+  desktop.wait_until_idle();
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  desktop.press(Qt::Key_2, Qt::ControlModifier);  // one large, three small
+  desktop.wait_until_idle();
+  std::uint8_t label = 0;
+  for (const auto& [name, axis] :
+       {std::pair("Axial", 2), std::pair("Coronal", 1), std::pair("Sagittal", 0)}) {
+    auto* view = desktop.view<ui::SliceViewWidget>(name);
+    QVERIFY2(view && view->isVisible(), name);
+    for (const int clicks : {0, 1, -3}) {
+      view->setFocus();
+      for (int i = 0; i < std::abs(clicks); ++i)
+        QTest::keyClick(view, clicks > 0 ? Qt::Key_Up : Qt::Key_Down);
+      const glm::dvec3 cursor = desktop.proxy().display().settings().cursor_mm;
+      const Index3 seen(glm::round(desktop.proxy().volume().geometry.to_voxel(cursor)));
+      click(desktop, panel, "Add");
+      click(desktop, panel, "Brush");
+      Desktop::drag(*view, {cursor, cursor});
+      desktop.wait_until_idle();
+      const VoxelRange box = region(desktop, ++label).bounds();
+      QVERIFY2(
+          box.low[axis] == seen[axis] && box.high[axis] == seen[axis] + 1,
+          qPrintable(
+              QString("%1 %2: %3 to %4").arg(name).arg(seen[axis]).arg(box.low[axis]).arg(box.high[axis])));
+      // All labels are measured with the state that shows them.
+      std::int64_t voxels = 0;
+      for (const auto& one : desktop.state().label_statistics) voxels += one.voxels;
+      std::int64_t painted = 0;
+      for (std::uint8_t id = 1; id <= label; ++id) painted += region(desktop, id).count();
+      QCOMPARE(voxels, painted);
+      if (label == 1) desktop.screenshot("brush-even");
+    }
+  }
+}
+
+void PaintLabelsStoryTest::escape_gives_a_stroke_up() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  const glm::dvec3 seed = desktop.seed_mm();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  desktop.press(Qt::Key_Q);
+  for (const bool given_up : {true, false}) {
+    Desktop::mouse(*axial, QEvent::MouseButtonPress, seed);
+    Desktop::mouse(*axial, QEvent::MouseMove, seed + glm::dvec3(8.0, 0.0, 0.0));
+    QVERIFY(desktop.proxy().display().drawn_label());
+    if (given_up) QTest::keyClick(axial, Qt::Key_Escape);
+    QCOMPARE(desktop.proxy().display().drawn_label() == nullptr, given_up);
+    Desktop::mouse(*axial, QEvent::MouseMove, seed + glm::dvec3(9.0, 0.0, 0.0));
+    Desktop::mouse(*axial, QEvent::MouseButtonRelease, seed + glm::dvec3(9.0, 0.0, 0.0));
+    desktop.wait_until_idle();
+    QCOMPARE(desktop.state().labels.empty(), given_up);
+  }
 }
 
 TIDEMARK_TEST(PaintLabelsStoryTest)
