@@ -350,17 +350,28 @@ void ActiveCaseTest::what_is_done_to_a_case_window_changes_the_case() {
 }
 
 void ActiveCaseTest::the_press_that_activates_a_case_changes_nothing_in_it() {
-  const auto edits = [&](int of) { return cases_[of]->proxy().state().edits; };
+  // Of the surface and of labels.
+  const auto voxels = [&] {
+    const engine::CaseState& state = cases_[1]->proxy().state();
+    std::int64_t count = state.surface.voxels_inside;
+    for (const auto& label : state.label_statistics) count += label.voxels;
+    return count;
+  };
+  int above = -20;  // pixels, where nothing was placed before
   for (const engine::Tool tool : {engine::Tool::seed, engine::Tool::label, engine::Tool::paint}) {
     begin_with(0, false);
     cases_[1]->proxy().display().choose_tool(tool);
     desktop_->wait_until_idle();
-    const auto before = edits(1);
-    click_view(1);
+    const std::int64_t before = voxels();
+    ui::PictureView& view = *cases_[1]->views().first();
+    const QPoint beside = view.rect().center() + QPoint(view.width() / 5, above += 10);
+    click(view, beside);
+    desktop_->wait_until_idle();
     QCOMPARE(active(), cases_[1]);
-    QCOMPARE(edits(1), before);
-    click_view(1);
-    QVERIFY(edits(1) > before);
+    QCOMPARE(voxels(), before);
+    click(view, beside);
+    desktop_->wait_until_idle();
+    QVERIFY(voxels() > before);
     cases_[1]->proxy().display().choose_tool(engine::Tool::crosshair);
   }
 }

@@ -33,7 +33,7 @@ class FinishLabelsStoryTest : public QObject {
   static void choose(QWidget& in, const QString& combo, const QString& entry) {
     auto* choice = seen<QComboBox>(in, combo);
     choice->setFocus();
-    QTest::keyClick(choice, Qt::Key_Home);
+    while (choice->currentIndex() > 0) QTest::keyClick(choice, Qt::Key_Up);  // Home restarts the surface
     for (int i = 0; i < choice->count() && choice->currentText() != entry; ++i)
       QTest::keyClick(choice, Qt::Key_Down);
     QCOMPARE(choice->currentText(), entry);
@@ -201,11 +201,11 @@ void FinishLabelsStoryTest::each_tool_has_its_amount_after_any_other() {
   QVERIFY(desktop.open_phantom("sphere"));
   ui::LabelsPanel& panel = *shown_panel(desktop);
   make_label(desktop, panel);
-  for (const char* before : {"Intersect", "Mirror", "Fill holes"}) {
+  desktop.begin(6.0);
+  for (const char* before : {"Intersect", "Shrink"}) {
     choose(panel, "Tool", before);
-    Desktop::wait_for([&] { return seen<QAbstractButton>(panel, "Apply to labels")->isEnabled(); }, 2000);
-    QTest::mouseClick(seen<QAbstractButton>(panel, "Apply to labels"), Qt::LeftButton, {}, {8, 8});
-    desktop.wait_until_idle();
+    wait_for_preview(desktop, panel);
+    click(desktop, panel, "Apply to labels");
     choose(panel, "Tool", "Grow");
     QVERIFY2(find_seen<ui::NumberBox>(panel, "Amount"), before);
     choose(panel, "Tool", "None");
