@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kGridTolerance = 0.1;  // of the smallest spacing: files round their numbers
 
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 std::string describe_origin(const char* what, const std::string& origin) {
   return origin.empty() ? what : fmt::format("{} {}", what, origin);
 }
@@ -130,8 +126,8 @@ Result<std::optional<Inside>> inside_of(const Start& start, const Volume& source
 std::string Start::describe() const {
   std::string text = std::visit(Describe{}, from);
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  if (!seeds.empty()) add(counted(seeds.size(), "seed"));
-  if (!erasers.empty()) add(counted(erasers.size(), "eraser"));
+  if (!seeds.empty()) add(seeds.size() == 1 ? "1 seed" : fmt::format("{} seeds", seeds.size()));
+  if (!erasers.empty()) add(erasers.size() == 1 ? "1 eraser" : fmt::format("{} erasers", erasers.size()));
   if (text.empty()) return "nothing";
   return levels > 1 ? fmt::format("{}, coarse to fine in {} levels", text, levels) : text;
 }
