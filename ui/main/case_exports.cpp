@@ -52,7 +52,10 @@ QString driven_by(const document::Drive& drive) {
     const solver::SpeedKind* kind = solver::speed_kind(term.function);
     parts << engine::message_text(std::string(kind ? kind->title : term.function));
   }
-  if (drive.constraints) parts << CaseExports::tr("walls and anchors");
+  if (drive.constraints && drive.constraints->count(solver::Constraint::wall) +
+                                   drive.constraints->count(solver::Constraint::anchor) >
+                               0)
+    parts << CaseExports::tr("walls and anchors");
   return parts.join(QStringLiteral(", "));
 }
 

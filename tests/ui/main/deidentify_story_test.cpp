@@ -193,14 +193,14 @@ void DeidentifyStoryTest::nothing_is_overwritten() {
 
 // The question comes while the work goes on, and the answer counts for what is unfinished then.
 void DeidentifyStoryTest::quitting_asks_while_copies_are_made() {
-  const fs::path source = folder_ / "source";
+  const fs::path source = folder_ / "many";
   fs::create_directories(source);
   for (int copy = 0; copy < kManyCopies; ++copy)
     fs::copy(folder_ / "study", source / std::to_string(copy), fs::copy_options::recursive);
   ui::DeidentifyDialog& made = dialog();
   click(*made.findChildren<QRadioButton*>().last());
-  type(called<QLineEdit>(made, "Folder"), path("source"));
-  type(called<QLineEdit>(made, "Copies to"), path("copies"));
+  type(called<QLineEdit>(made, "Folder"), path("many"));
+  type(called<QLineEdit>(made, "Copies to"), path("finished"));
   QPushButton* go = button(made, "Make copies");
 
   const auto quit_and_say = [&](const QString& answer) {
@@ -218,7 +218,7 @@ void DeidentifyStoryTest::quitting_asks_while_copies_are_made() {
   QVERIFY(quit_and_say("Cancel").contains("Anonymous copies"));
   QVERIFY(desktop_->window().isVisible());
   QVERIFY(Desktop::wait_for([&] { return go->isEnabled(); }, kPatience));
-  QVERIFY(says(made, QString("copies: files %1").arg(16 * kManyCopies)));
+  QVERIFY(says(made, QString("finished: files %1").arg(16 * kManyCopies)));
 
   type(called<QLineEdit>(made, "Copies to"), path("unfinished"));
   go->click();
