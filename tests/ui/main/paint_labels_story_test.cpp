@@ -26,6 +26,7 @@ class PaintLabelsStoryTest : public QObject {
   void a_label_is_chosen_where_it_is_seen();
   void a_stroke_lies_in_the_slice_that_is_seen();
   void escape_gives_a_stroke_up();
+  void the_place_under_a_resting_mouse_follows_the_slice();
 
  private:
   static void undo(Desktop& desktop) {
@@ -394,6 +395,21 @@ void PaintLabelsStoryTest::escape_gives_a_stroke_up() {
     desktop.wait_until_idle();
     QCOMPARE(desktop.state().labels.empty(), given_up);
   }
+}
+
+void PaintLabelsStoryTest::the_place_under_a_resting_mouse_follows_the_slice() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  Desktop::hover(*axial, axial->rect().center() + QPoint(20, 10));
+  const auto& place = desktop.proxy().display().pointer_mm();
+  QVERIFY(Desktop::wait_for([&] { return place.has_value(); }));
+  const glm::dvec3 before = *place;
+  axial->setFocus();
+  QTest::keyClick(axial, Qt::Key_Up);
+  QVERIFY(place.has_value());
+  QCOMPARE(std::abs(place->z - before.z), desktop.proxy().volume().geometry.spacing_mm.z);
+  QCOMPARE(place->x, before.x);
 }
 
 TIDEMARK_TEST(PaintLabelsStoryTest)
