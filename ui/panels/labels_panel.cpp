@@ -10,15 +10,14 @@
 #include <QToolButton>
 
 #include "ui/look/theme.h"
+#include "ui/panels/acceptance_text.h"
 #include "ui/panels/label_paint_controls.h"
 #include "ui/panels/label_tool_controls.h"
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
 #include "ui/panels/refine_choice.h"
 #include "ui/widgets/form.h"
-#include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
-#include "ui/widgets/tr.h"
 #include "ui/widgets/wide_button.h"
 
 namespace tidemark::ui {
@@ -189,15 +188,7 @@ void LabelsPanel::show_acceptance() {
   const auto& acceptance = proxy()->state().acceptance;
   accepted_->setVisible(acceptance.has_value());
   if (!acceptance) return;
-  QStringList sentences{tr("%1 took %2 voxels.", nullptr, form_of(acceptance->taken))
-                            .arg(QString::fromStdString(acceptance->label), count_text(acceptance->taken))};
-  if (acceptance->from_others > 0)
-    sentences << tr("%1 of them had another label.", nullptr, form_of(acceptance->from_others))
-                     .arg(count_text(acceptance->from_others));
-  if (acceptance->left > 0)
-    sentences << tr("%1 voxels stayed with other labels.", nullptr, form_of(acceptance->left))
-                     .arg(count_text(acceptance->left));
-  accepted_->setText(sentences.join(u' '));
+  accepted_->setText(acceptance_text(*acceptance));
 }
 
 void LabelsPanel::choose_colour(const QModelIndex& index) {

@@ -14,12 +14,12 @@
 #include "engine/message_text.h"
 #include "ui/look/theme.h"
 #include "ui/main/case_head.h"
+#include "ui/panels/acceptance_text.h"
 #include "ui/readers/reader_list.h"
 #include "ui/readers/reader_table.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/path_text.h"
-#include "ui/widgets/tr.h"
 #include "ui/widgets/work_line.h"
 
 namespace tidemark::ui {
@@ -296,15 +296,8 @@ void ReadersDialog::keep_estimate() {
 void ReadersDialog::follow_keeping() {
   const auto& acceptance = proxy().state().acceptance;
   if (keeping_.isEmpty() || !acceptance || acceptance->label != keeping_.toStdString()) return;
-  QStringList sentences{tr("%1 took %2 voxels.", nullptr, form_of(acceptance->taken))
-                            .arg(std::exchange(keeping_, {}), count_text(acceptance->taken))};
-  if (acceptance->from_others > 0)
-    sentences << tr("%1 of them had another label.", nullptr, form_of(acceptance->from_others))
-                     .arg(count_text(acceptance->from_others));
-  if (acceptance->left > 0)
-    sentences << tr("%1 voxels stayed with other labels.", nullptr, form_of(acceptance->left))
-                     .arg(count_text(acceptance->left));
-  rest(sentences.join(u' '));
+  keeping_.clear();
+  rest(acceptance_text(*acceptance));
 }
 
 void ReadersDialog::clear_results() {

@@ -290,14 +290,14 @@ void PictureView::replace_drag(std::unique_ptr<Drag> drag) {
 
 std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
   const engine::Tool tool = settings().tool;
+  // The press that makes another case active changes nothing in it.
+  const bool only_activates = std::exchange(brings_forward_, false) && engine::has_right_button(tool);
   if (pressed.button == Qt::LeftButton && pressed.modifiers.testFlag(Qt::AltModifier)) {
     return window_drag(drag_view(), pressed);
   }
   const bool with_tool = pressed.button == Qt::LeftButton ||
                          (pressed.button == Qt::RightButton && engine::has_right_button(tool));
-  // The press that makes another case active changes nothing in it.
-  const bool brings_forward = std::exchange(brings_forward_, false) && engine::has_right_button(tool);
-  if (with_tool && !brings_forward) {
+  if (with_tool && !only_activates) {
     if (auto drag = tool_drag(tool, drag_view(), pressed)) return drag;
   }
   return navigation_drag(pressed);
