@@ -113,7 +113,7 @@ Result<std::vector<Region>> parts_of(const LabelToolUse& use, const Label& label
 Status check_other(const LabelToolUse& use, const std::vector<std::uint8_t>& labels,
                    const LabelVoxels& from) {
   if (!has_other(use.tool)) return {};
-  const bool is_surface = use.other == kTheSurface;
+  const bool is_surface = has_surface(use);
   if (is_surface && use.tool == LabelTool::watershed)
     return fail(ErrorKind::usage, "the seeds must be islands of another label");
   if (is_surface && from.phi == nullptr) return fail(ErrorKind::usage, "there is no surface");
@@ -133,6 +133,10 @@ Status check_other(const LabelToolUse& use, const std::vector<std::uint8_t>& lab
 bool has_other(LabelTool tool) {
   return tool == LabelTool::add || tool == LabelTool::subtract || tool == LabelTool::intersect ||
          tool == LabelTool::watershed;
+}
+
+bool has_surface(const LabelToolUse& use) {
+  return has_other(use.tool) && use.other == kTheSurface;
 }
 
 Region LabelVoxels::region(std::uint8_t label) const {

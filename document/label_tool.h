@@ -49,6 +49,9 @@ struct LabelToolUse {
   bool operator==(const LabelToolUse&) const = default;
 };
 
+// Whether the surface has a part in what comes of it.
+[[nodiscard]] bool has_surface(const LabelToolUse& use);
+
 // Labels as values, for work beside the case.
 struct LabelVoxels {
   Geometry geometry;

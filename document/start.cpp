@@ -1,5 +1,7 @@
 #include "document/start.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -12,24 +14,24 @@ namespace {
 
 constexpr double kGridTolerance = 0.1;  // of the smallest spacing: files round their numbers
 
-std::string describe_origin(const char* what, const std::string& origin) {
-  return origin.empty() ? what : fmt::format("{} {}", what, origin);
-}
+using Parts = std::vector<std::string>;
 
 struct Describe {
-  std::string operator()(std::monostate) const { return {}; }
-  std::string operator()(const ThresholdStart& start) const {
-    return fmt::format("values {} to {}", start.low, start.high);
+  Parts operator()(std::monostate) const { return {}; }
+  Parts operator()(const ThresholdStart& start) const {
+    return {fmt::format("values {} to {}", start.low, start.high)};
   }
-  std::string operator()(const FloodStart& start) const {
-    return fmt::format("flood fill, values {} to {}", start.low, start.high);
+  Parts operator()(const FloodStart& start) const {
+    return {fmt::format("flood fill, values {} to {}", start.low, start.high)};
   }
-  std::string operator()(const MaskStart& start) const {
-    std::string text = describe_origin("mask", start.origin);
-    if (start.limit != nullptr) text += fmt::format(", within {} mm", start.limit->within_mm());
-    return text;
+  Parts operator()(const MaskStart& start) const {
+    Parts parts{start.origin.empty() ? "mask" : fmt::format("mask {}", start.origin)};
+    if (start.limit != nullptr) parts.push_back(fmt::format("within {} mm", start.limit->within_mm()));
+    return parts;
   }
-  std::string operator()(const FieldStart& start) const { return describe_origin("phi", start.origin); }
+  Parts operator()(const FieldStart& start) const {
+    return {start.origin.empty() ? "phi" : fmt::format("phi {}", start.origin)};
+  }
 };
 
 Status check_grid(const Geometry& part, const Geometry& grid, const char* what) {
@@ -123,13 +125,18 @@ Result<std::optional<Inside>> inside_of(const Start& start, const Volume& source
   return std::visit(FirstInside{source}, start.from);
 }
 
+std::vector<std::string> Start::parts() const {
+  Parts parts = std::visit(Describe{}, from);
+  if (!seeds.empty()) parts.push_back(seeds.size() == 1 ? "1 seed" : fmt::format("{} seeds", seeds.size()));
+  if (!erasers.empty())
+    parts.push_back(erasers.size() == 1 ? "1 eraser" : fmt::format("{} erasers", erasers.size()));
+  if (parts.empty()) return {"nothing"};
+  if (levels > 1) parts.push_back(fmt::format("coarse to fine in {} levels", levels));
+  return parts;
+}
+
 std::string Start::describe() const {
-  std::string text = std::visit(Describe{}, from);
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  if (!seeds.empty()) add(seeds.size() == 1 ? "1 seed" : fmt::format("{} seeds", seeds.size()));
-  if (!erasers.empty()) add(erasers.size() == 1 ? "1 eraser" : fmt::format("{} erasers", erasers.size()));
-  if (text.empty()) return "nothing";
-  return levels > 1 ? fmt::format("{}, coarse to fine in {} levels", text, levels) : text;
+  return fmt::format("{}", fmt::join(parts(), ", "));
 }
 
 Start suggested_start(const Geometry& geometry, const std::optional<std::array<double, 4>>& seed,

@@ -61,7 +61,9 @@ struct Start {
   [[nodiscard]] bool empty() const { return std::holds_alternative<std::monostate>(from) && seeds.empty(); }
   // Of a mask that is refined; null: none.
   [[nodiscard]] std::shared_ptr<const solver::MotionLimit> limit() const;
-  // One line for people: "2 seeds, 1 eraser", "mask truth.nii.gz, 1 seed".
+  // What it consists of, for people: "mask truth.nii.gz", "1 seed".
+  [[nodiscard]] std::vector<std::string> parts() const;
+  // The same in one line.
   [[nodiscard]] std::string describe() const;
 };
 

@@ -8,6 +8,7 @@
 #include "engine/change_text.h"
 #include "engine/lock_step.h"
 #include "engine/message_text.h"
+#include "engine/start_text.h"
 
 namespace tidemark::engine {
 CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
@@ -373,7 +374,7 @@ void CaseRunner::publish() {
   state.open_change = case_->history().open_state();
   state.modified = case_->changed_since_save() || restored_.rescued;
   state.edits = case_->history().edits();
-  state.start_text = message_text(recipe.start.describe());
+  state.start_text = start_text(recipe.start);
   state.limit = recipe.start.limit();
   meter_.follow_labels(*case_);
   meter_.report(state);

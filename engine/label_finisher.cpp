@@ -69,21 +69,23 @@ void LabelFinisher::begin(const document::LabelToolUse& use, const std::vector<s
   wanted.labels = labels;
   wanted.from = {proxy_.volume().geometry, state.labels, state.label_voxels, state.phi};
   wanted.take = take;
-  run([wanted = std::move(wanted)](const Progress& progress) { return computed(wanted, progress); },
+  asked_ = std::make_shared<const LabelPreview>(std::move(wanted));
+  run([wanted = asked_](const Progress& progress) { return computed(*wanted, progress); },
       [this](Preview preview) {
         preview_ = std::move(preview);
         emit changed();
       });
 }
 
-bool LabelFinisher::is_current() const {
+bool LabelFinisher::is_of_now(const LabelPreview& preview) const {
   const CaseState& state = proxy_.state();
-  return preview_ != nullptr && preview_->from.voxels == state.label_voxels &&
-         preview_->from.list == state.labels;
+  return preview.from.voxels == state.label_voxels && preview.from.list == state.labels &&
+         (!document::has_surface(preview.use) || preview.from.phi == state.phi);
 }
 
 void LabelFinisher::clear() {
   give_up();
+  asked_ = nullptr;
   if (std::exchange(preview_, nullptr) != nullptr) emit changed();
 }
 

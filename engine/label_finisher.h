@@ -21,8 +21,10 @@ class LabelFinisher : public JobRunner {
   void begin(const document::LabelToolUse& use, const std::vector<std::uint8_t>& labels, document::Take take);
   // Null: there is none.
   [[nodiscard]] const std::shared_ptr<const LabelPreview>& preview() const { return preview_; }
-  // Whether it is of the labels as they are now.
-  [[nodiscard]] bool is_current() const;
+  // Whether it is of the labels, and of the surface where that has a part in it, as they are now.
+  [[nodiscard]] bool is_current() const { return preview_ && is_of_now(*preview_); }
+  // The same of what begin() was last called for, whatever has come of it.
+  [[nodiscard]] bool has_seen_all() const { return asked_ && is_of_now(*asked_); }
   void cancel() { give_up(); }
   void clear();  // the preview, and what is being computed
 
@@ -33,7 +35,10 @@ class LabelFinisher : public JobRunner {
   void changed();  // preview()
 
  private:
+  [[nodiscard]] bool is_of_now(const LabelPreview& preview) const;
+
   CaseProxy& proxy_;
+  std::shared_ptr<const LabelPreview> asked_;  // without an outcome
   std::shared_ptr<const LabelPreview> preview_;
 };
 

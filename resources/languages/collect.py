@@ -22,7 +22,7 @@ ONE_FORM = ("ja", "zh_CN")
 # Tables of the folders below the user interface, whose texts are shown: members of these names, and columns.
 MEMBERS = ("title", "text", "unit")
 TABLES = {"document/lesson_figure.cpp": r'^\s+\{"\w+", "[^"]*", "([^"]+)"',
-          "document/start.cpp": r'"(nothing|1 seed|\{\} seeds|1 eraser|\{\} erasers)"',
+          "document/start.cpp": r'"(nothing|mask|(?:mask|phi) \{\}|within \{\} mm|1 seed|\{\} seeds|1 eraser|\{\} erasers)"',
           "document/cohort/case_status.cpp": r'^\s+return "([a-z ]+)";',
           "imaging/results/segment_meaning.cpp": r'^\s+\{"([a-z-]+)", '}
 # Here every text of some words is part of what users are told of a file.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/message_text.h"
+#include "engine/start_text.h"
 #include "ui/lessons/text_box.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -20,10 +20,6 @@ QHBoxLayout* row_in(QWidget* whole) {
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(kSpace);
   return row;
-}
-
-QString start_text(const document::Start& start) {
-  return engine::message_text(start.describe());
 }
 
 }  // namespace
@@ -162,9 +158,9 @@ void TryForm::show_start() {
   drop_start_->setVisible(on && part_->attempt->start);
   if (!on) return start_->clear();
   if (part_->attempt->goes_on) return start_->setText(tr("none: the surface goes on"));
-  if (part_->attempt->start) return start_->setText(start_text(*part_->attempt->start));
+  if (part_->attempt->start) return start_->setText(engine::start_text(*part_->attempt->start));
   const document::Start* inherited = lesson_->start_of(*part_);
-  start_->setText(inherited != nullptr ? tr("the lesson's: %1").arg(start_text(*inherited))
+  start_->setText(inherited != nullptr ? tr("the lesson's: %1").arg(engine::start_text(*inherited))
                                        : tr("the phantom's own"));
 }
 

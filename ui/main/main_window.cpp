@@ -1,6 +1,5 @@
 #include "ui/main/main_window.h"
 
-#include <QAbstractButton>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
@@ -35,6 +34,7 @@
 #include "ui/main/leak_message.h"
 #include "ui/main/menus.h"
 #include "ui/main/message_bar.h"
+#include "ui/main/own_keys.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/server_query.h"
 #include "ui/main/session_reader.h"
@@ -440,9 +440,8 @@ void MainWindow::keep_arrangement() const {
 
 bool MainWindow::event(QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride) {
-    const auto* key = static_cast<const QKeyEvent*>(event);
-    const bool is_space = key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier;
-    if (is_space && qobject_cast<QAbstractButton*>(QApplication::focusWidget())) event->accept();
+    const auto& key = *static_cast<const QKeyEvent*>(event);
+    if (owns_key(QApplication::focusWidget(), key)) event->accept();
   }
   return QMainWindow::event(event);
 }

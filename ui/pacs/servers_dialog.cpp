@@ -170,11 +170,11 @@ void ServersDialog::show_protocol() {
   const bool is_web = protocol_->currentIndex() == 1;
   // Lines of files stand in a row with their button.
   for (QWidget* widget : std::initializer_list<QWidget*>{url_, user_, secret_->parentWidget()}) {
-    rows_->setRowVisible(widget, is_web);
+    show_row(*rows_, widget, is_web);
   }
   for (QWidget* widget :
        std::initializer_list<QWidget*>{host_, port_, ae_title_, own_ae_title_, retrieve_, move_port_}) {
-    rows_->setRowVisible(widget, !is_web);
+    show_row(*rows_, widget, !is_web);
   }
   tls_->setTitle(is_web ? tr("Certificates other than the system's") : tr("Encrypted (TLS)"));
 }

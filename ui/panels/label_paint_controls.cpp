@@ -123,7 +123,7 @@ void LabelPaintControls::show_brush() {
   outline_->setChecked(paints && brush.way == engine::LabelWay::outline);
   livewire_->setChecked(paints && brush.way == engine::LabelWay::livewire);
   limited_->setChecked(brush.values.has_value());
-  for (SliderNumber* number : {low_, high_}) rows_->setRowVisible(number, brush.values.has_value());
+  for (SliderNumber* number : {low_, high_}) show_row(*rows_, number, brush.values.has_value());
   if (!brush.values) return;
   low_->set_value(brush.values->low);
   high_->set_value(brush.values->high);

@@ -184,14 +184,13 @@ void LabelToolControls::choose_tool() {
     amount_->set_range(0.1, text->most, SliderNumber::Scale::logarithmic);
     amount_->set_value(text->first);
   }
-  const auto show_row = [this](QWidget* widget, bool shown) { rows_->setRowVisible(widget, shown); };
-  show_row(hint_, text != nullptr);
-  show_row(amount_, text && text->amount != Amount::none);
-  show_row(axis_, chosen && has_axis(*chosen));
-  show_row(other_, chosen && document::has_other(*chosen));
-  show_row(work_, text != nullptr);
+  show_row(*rows_, hint_, text != nullptr);
+  show_row(*rows_, amount_, text && text->amount != Amount::none);
+  show_row(*rows_, axis_, chosen && has_axis(*chosen));
+  show_row(*rows_, other_, chosen && document::has_other(*chosen));
+  show_row(*rows_, work_, text != nullptr);
   work_->end({});
-  show_row(apply_, text != nullptr);
+  show_row(*rows_, apply_, text != nullptr);
   if (!chosen && finisher()) finisher()->clear();
   if (proxy()) fill_others();
   look_again();
@@ -233,7 +232,8 @@ void LabelToolControls::look() {
   if (labels_.empty()) return say(tr("Choose a label in the table."));
   if (tool() == LabelTool::watershed && other_->count() == 0)
     return say(tr("Add another label and paint the seeds with it."));
-  looked_at_ = {proxy()->state().label_voxels, proxy()->state().labels};
+  if (proxy()->state().playing && document::has_surface(use()))
+    return say(tr("Pause the surface: it moves while it is looked at."));
   work_->begin(tr("Preview"));
   finisher()->begin(use(), labels_, take_);
   show_buttons();
@@ -279,8 +279,7 @@ void LabelToolControls::attach() {
 
 void LabelToolControls::refresh() {
   fill_others();
-  const engine::CaseState& state = proxy()->state();
-  if (tool() && looked_at_ != LookedAt{state.label_voxels, state.labels}) look_again();
+  if (!soon_.isActive() && !finisher()->has_seen_all()) look_again();
   show_buttons();
 }
 

@@ -53,13 +53,6 @@ class LabelToolControls : public CaseWidget {
   QTimer soon_;
   document::Take take_ = document::Take::free_voxels;
   std::vector<std::uint8_t> labels_;
-  // What the preview is of.
-  struct LookedAt {
-    std::shared_ptr<const SharedSlices> voxels;
-    std::vector<document::Label> labels;  // with their locks
-    bool operator==(const LookedAt&) const = default;
-  };
-  LookedAt looked_at_;
   QPointer<engine::LabelFinisher> shown_;  // to which this is connected
 };
 

@@ -76,7 +76,7 @@ std::uint8_t MeasureControls::region() const {
 void MeasureControls::measure() {
   if (!proxy()) return;
   show_measures(nullptr);
-  rows_->setRowVisible(work_, true);
+  show_row(*rows_, work_, true);
   work_->begin(tr("Measuring"));
   step_ = proxy()->state().step;
   edits_ = proxy()->state().edits;
@@ -86,7 +86,7 @@ void MeasureControls::measure() {
 
 void MeasureControls::show_measures(const std::shared_ptr<const document::Measures>& measures) {
   measures_ = measures;
-  rows_->setRowVisible(results_, measures != nullptr);
+  show_row(*rows_, results_, measures != nullptr);
   image_->clear();
   if (measures) {
     const imaging::Diameters& d = measures->diameters;
@@ -103,7 +103,7 @@ void MeasureControls::show_measures(const std::shared_ptr<const document::Measur
     for (const document::ImageValues& image : measures->images)
       image_->addItem(QString::fromStdString(image.image));
   }
-  result_rows_->setRowVisible(image_, image_->count() > 1);
+  show_row(*result_rows_, image_, image_->count() > 1);
   fill_values();
   show_buttons();
 }
@@ -154,7 +154,7 @@ void MeasureControls::show_buttons() {
 
 void MeasureControls::end_work(const QString& said) {
   work_->end(said);
-  rows_->setRowVisible(work_, !said.isEmpty());
+  show_row(*rows_, work_, !said.isEmpty());
   show_buttons();
 }
 

@@ -28,8 +28,8 @@ SpeedControls::SpeedControls(QWidget* parent) : CaseWidget(parent) {
   form.wide(certainty_);
   joint_ = new JointPlot;
   form.wide(joint_);
-  form_->setRowVisible(certainty_, false);
-  form_->setRowVisible(joint_, false);
+  show_row(*form_, certainty_, false);
+  show_row(*form_, joint_, false);
   connect(tent_, &SpeedPlot::edited, this, [this](double target, double range, std::uint64_t gesture) {
     change(
         [=](solver::Parameters& parameters) {
@@ -102,10 +102,10 @@ void SpeedControls::refresh() {
   const bool has_tent = is_driven_by(proxy()->drive(), "tent");
   for (QWidget* of_tent :
        {static_cast<QWidget*>(tent_), static_cast<QWidget*>(target_), static_cast<QWidget*>(range_)})
-    form_->setRowVisible(of_tent, has_tent);
-  form_->setRowVisible(certainty_, !proxy()->drive().setting.is_tent());
+    show_row(*form_, of_tent, has_tent);
+  show_row(*form_, certainty_, !proxy()->drive().setting.is_tent());
   // What learns sees all images; the others see one.
-  form_->setRowVisible(joint_,
+  show_row(*form_, joint_,
                        is_driven_by(proxy()->drive(), "examples") && JointPlot::fits(proxy()->drive()));
   show_mark();
   tent_->set_tent(parameters.target, parameters.range);

@@ -21,7 +21,7 @@ constexpr int kSlice = 96;
 constexpr int kMiddle = 82;
 constexpr int kSmall = 50;
 constexpr int kBlocks = 40;
-constexpr int kTitle = 48;  // of a row
+constexpr int kTitle = 60;  // of a row
 constexpr float kNoTexel = std::numeric_limits<float>::quiet_NaN();
 
 bool is_voxel(const PassRecord& record, int x, int y) {
@@ -109,6 +109,8 @@ QList<TexelPicture*> PassCards::add_row(PassCard& card, const QStringList& names
   row->setSpacing(kSpace - 2);
   if (!title.isEmpty()) {
     auto* label = new QLabel(title);
+    label->setFont(caption_font(label->font()));
+    label->setWordWrap(true);
     label->setFixedWidth(kTitle);
     label->setToolTip(tip);
     row->addWidget(label);

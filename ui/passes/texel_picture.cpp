@@ -17,12 +17,22 @@ namespace {
 
 constexpr double kRounding = 1e-6;  // what is smaller is rounding
 
-QFont small(QFont font) {
-  font.setPointSizeF(0.85 * font.pointSizeF());
+constexpr double kSmallest = 0.6;  // of captions
+
+// In which a caption is as wide as its picture at most: words of other languages are longer.
+QFont fitting(QFont font, const QString& text, int flags, int width) {
+  const QRect room(0, 0, width, QWIDGETSIZE_MAX);
+  const int needed = QFontMetrics(font).boundingRect(room, flags, text).width();
+  if (needed > width) font.setPointSizeF(font.pointSizeF() * std::max(double(width) / needed, kSmallest));
   return font;
 }
 
 }  // namespace
+
+QFont caption_font(QFont font) {
+  font.setPointSizeF(0.85 * font.pointSizeF());
+  return font;
+}
 
 double round_range(const std::vector<float>& values) {
   double largest = 0.0;
@@ -55,7 +65,7 @@ void TexelPicture::clear() {
 
 QSize TexelPicture::sizeHint() const {
   const int lines = is_narrow() ? 2 : 1;
-  return {side_, side_ + lines * QFontMetrics(small(font())).height() + kSpaceTight};
+  return {side_, side_ + lines * QFontMetrics(caption_font(font())).height() + kSpaceTight};
 }
 
 QRect TexelPicture::cell(int x, int y) const {
@@ -104,12 +114,14 @@ void TexelPicture::paintEvent(QPaintEvent* /*event*/) {
     painter.drawRect(
         cell(content_.border, content_.border).united(cell(last_x, last_y)).adjusted(0, 0, -1, -1));
   }
-  painter.setFont(small(font()));
   painter.setPen(palette().color(QPalette::WindowText));
   const QRect below(0, side_ + kSpaceTight / 2, side_, height() - side_);
   const QString range = range_text();
   const QString text = range.isEmpty() ? name_ : name_ + (is_narrow() ? "\n" : "  ") + range;
-  painter.drawText(below, Qt::AlignHCenter | Qt::AlignTop, text);
+  const int wrap = is_narrow() && range.isEmpty() ? Qt::TextWordWrap : 0;
+  const int flags = Qt::AlignHCenter | Qt::AlignTop | wrap;
+  painter.setFont(fitting(caption_font(font()), text, flags, side_));
+  painter.drawText(below, flags, text);
 }
 
 void TexelPicture::paint_zero_line(QPainter& painter) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QColor>
+#include <QFont>
 #include <QString>
 #include <QWidget>
 #include <functional>
@@ -53,6 +54,9 @@ class TexelPicture : public QWidget {
   int side_;
   Content content_;
 };
+
+// Of words beside and below pictures.
+QFont caption_font(QFont font);
 
 // A round number that is not below the largest size of the values: 1, 2 or 5 times a power of ten.
 double round_range(const std::vector<float>& values);

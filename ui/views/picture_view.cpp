@@ -290,23 +290,24 @@ void PictureView::replace_drag(std::unique_ptr<Drag> drag) {
 
 std::unique_ptr<Drag> PictureView::begin_drag(const Pointer& pressed) {
   const engine::Tool tool = settings().tool;
-  // The press that makes another case active changes nothing in it.
-  const bool only_activates = std::exchange(brings_forward_, false) && engine::has_right_button(tool);
   if (pressed.button == Qt::LeftButton && pressed.modifiers.testFlag(Qt::AltModifier)) {
     return window_drag(drag_view(), pressed);
   }
   const bool with_tool = pressed.button == Qt::LeftButton ||
                          (pressed.button == Qt::RightButton && engine::has_right_button(tool));
-  if (with_tool && !only_activates) {
+  if (with_tool && !only_activates_) {
     if (auto drag = tool_drag(tool, drag_view(), pressed)) return drag;
   }
   return navigation_drag(pressed);
 }
 
 void PictureView::mousePressEvent(QMouseEvent* event) {
+  // The press that makes another case active changes nothing in it.
+  only_activates_ = std::exchange(brings_forward_, false) && engine::has_right_button(settings().tool);
   if (gesture_.is_held()) return;  // one gesture at a time
   gesture_.keep_to(ground());
   if (gesture_.waits_for_click()) {
+    if (only_activates_) return;
     gesture_.press(pointer_at(*event));
     return paint_again();
   }

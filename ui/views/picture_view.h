@@ -133,6 +133,7 @@ class PictureView : public QWidget {
   engine::ForceSampler forces_;
   bool explaining_ = false;      // a place is being looked for
   bool brings_forward_ = false;  // the press that follows makes the case active
+  bool only_activates_ = false;  // the last press did, and changes nothing
   int wheel_remainder_ = 0;      // of mice that turn by less than a click
 };
 

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <memory>
 
 #include "ui/look/theme.h"
 #include "ui/widgets/number_box.h"
@@ -26,6 +27,24 @@ QLabel* make_note(const QString& text) {
   // A long word must not make the panel wider.
   note->setMinimumWidth(1);
   return note;
+}
+
+void show_row(QFormLayout& rows, QWidget* widget, bool shown) {
+  if (!shown && rows.isRowVisible(widget)) {
+    // A hidden row keeps its place in Qt's layout, where it takes the height of the row that is shown there.
+    int at = 0;
+    QFormLayout::ItemRole role{};
+    rows.getWidgetPosition(widget, &at, &role);
+    const QFormLayout::TakeRowResult taken = rows.takeRow(at);
+    const std::unique_ptr<QLayoutItem> label(taken.labelItem);
+    const std::unique_ptr<QLayoutItem> field(taken.fieldItem);
+    if (label) {
+      rows.insertRow(at, label->widget(), widget);
+    } else {
+      rows.insertRow(at, widget);
+    }
+  }
+  rows.setRowVisible(widget, shown);
 }
 
 Form::Form(QWidget* on) : layout_(new QFormLayout(on)) {

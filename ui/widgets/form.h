@@ -39,6 +39,9 @@ class Form {
   QFormLayout* layout_;
 };
 
+// Shows or hides the row of a widget that was added to the form.
+void show_row(QFormLayout& rows, QWidget* widget, bool shown);
+
 // A label that wraps and whose text can be copied.
 QLabel* make_note(const QString& text);
 

@@ -8,6 +8,7 @@
 #include <QTest>
 
 #include "engine/message_text.h"
+#include "engine/start_text.h"
 #include "tests/support/test_program.h"
 #include "ui/look/language.h"
 
@@ -52,6 +53,17 @@ class CatalogueTest : public QObject {
     QCOMPARE(said_of("fr", 0), "0 avertissement");
     QCOMPARE(said_of("ja", 1), QString(said_of("ja", 2)).replace('2', '1'));
     ui::use_language("en");
+  }
+
+  void each_part_of_a_start_is_said_in_the_language() {
+    document::Start start;
+    start.from = document::ThresholdStart{1.0, 2.0};
+    start.seeds.resize(2);
+    start.levels = 3;
+    ui::use_language("de");
+    QCOMPARE(engine::start_text(start), "Werte 1 bis 2, 2 Kugeln, von grob nach fein in 3 Stufen");
+    ui::use_language("en");
+    QCOMPARE(engine::start_text(start), QString::fromStdString(start.describe()));
   }
 
   void values_of_a_sentence_are_found_and_filled_in() {

@@ -162,18 +162,18 @@ void CohortStoryTest::cases_are_looked_at_and_spoken_of() {
   desktop.wait_until_idle();
   desktop.screenshot("cohort-1-list");
   QCOMPARE(row_of(desktop, "dora"), 0);  // without a result, hence before all others
-  QVERIFY(!enabled(desktop, in_story_language("Reject the case")));  // none is chosen
+  QVERIFY(!enabled(desktop, in_story_language("&Reject the case")));  // none is chosen
   click_row(desktop, 0, false);
-  QVERIFY(!enabled(desktop, in_story_language("Accept the case")));
-  QVERIFY(enabled(desktop, in_story_language("Reject the case")));
-  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), in_story_language("Reject the case")),
+  QVERIFY(!enabled(desktop, in_story_language("&Accept the case")));
+  QVERIFY(enabled(desktop, in_story_language("&Reject the case")));
+  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), in_story_language("&Reject the case")),
                     Qt::LeftButton);
   QVERIFY(balls_->is_said("dora", Verdict::rejected));
 
   // By its picture alone, before any is open.
   click_row(desktop, row_of(desktop, "clara"), false);
-  QVERIFY(enabled(desktop, in_story_language("Accept the case")));
-  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), in_story_language("Accept the case")),
+  QVERIFY(enabled(desktop, in_story_language("&Accept the case")));
+  QTest::mouseClick(find_seen<QAbstractButton>(*panel(desktop), in_story_language("&Accept the case")),
                     Qt::LeftButton);
   QVERIFY(balls_->is_said("clara", Verdict::accepted));
 
@@ -245,7 +245,7 @@ void CohortStoryTest::a_surface_is_corrected() {
   QVERIFY(bytes_of(place / "mask.nii.gz") != mask);
   QCOMPARE(bytes_of(place / "automatic" / "mask.nii.gz"), mask);
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().modified; }));
-  QVERIFY(Desktop::wait_for([&] { return enabled(desktop, in_story_language("Accept the case")); }));
+  QVERIFY(Desktop::wait_for([&] { return enabled(desktop, in_story_language("&Accept the case")); }));
   desktop.screenshot("cohort-5-corrected");
   Desktop::keep_picture(*desktop.window().findChild<QDockWidget*>("cohort"));
 
@@ -274,20 +274,20 @@ void CohortStoryTest::nothing_is_said_of_a_case_that_is_not_seen() {
   QVERIFY(Desktop::wait_for([&] { return panel(desktop) != nullptr; }));
   click_row(desktop, row_of(desktop, "anna"), true);
   QVERIFY(opens(desktop, "anna"));
-  QVERIFY(enabled(desktop, in_story_language("Reject the case")));
+  QVERIFY(enabled(desktop, in_story_language("&Reject the case")));
   // Another row is chosen, and not opened.
   click_row(desktop, row_of(desktop, "clara"), false);
-  QVERIFY(!enabled(desktop, in_story_language("Reject the case")));
-  QVERIFY(!enabled(desktop, in_story_language("Accept the case")));
+  QVERIFY(!enabled(desktop, in_story_language("&Reject the case")));
+  QVERIFY(!enabled(desktop, in_story_language("&Accept the case")));
   const cohort::Decision before = balls_->said_of("clara");
   desktop.press(Qt::Key_R, Qt::ShiftModifier);
   desktop.wait_until_idle();
   QVERIFY(balls_->said_of("clara") == before);
   // Another study is the active one.
   click_row(desktop, row_of(desktop, "anna"), false);
-  QVERIFY(enabled(desktop, in_story_language("Reject the case")));
+  QVERIFY(enabled(desktop, in_story_language("&Reject the case")));
   QVERIFY(desktop.open_phantom("sphere"));
-  QVERIFY(Desktop::wait_for([&] { return !enabled(desktop, in_story_language("Reject the case")); }));
+  QVERIFY(Desktop::wait_for([&] { return !enabled(desktop, in_story_language("&Reject the case")); }));
   const cohort::Decision anna = balls_->said_of("anna");
   desktop.press(Qt::Key_R, Qt::ShiftModifier);
   desktop.wait_until_idle();
@@ -327,12 +327,12 @@ void CohortStoryTest::it_stays_open_when_the_language_changes() {
     if (action->text() == "English") action->trigger();
   }
   QVERIFY(Desktop::wait_for(
-      [&] { return panel(desktop) && enabled(desktop, in_story_language("Reject the case")); }, 60000));
+      [&] { return panel(desktop) && enabled(desktop, in_story_language("&Reject the case")); }, 60000));
   // To make a window takes longer than an event may.
   static_cast<void>(WatchedApplication::instance().take_held());
   QCOMPARE(&desktop.proxy(), before);
   QCOMPARE(panel(desktop)->row(), row_of(desktop, "anna"));
-  QVERIFY(enabled(desktop, in_story_language("Accept the case")));  // it was not changed
+  QVERIFY(enabled(desktop, in_story_language("&Accept the case")));  // it was not changed
 }
 
 void CohortStoryTest::a_folder_that_is_no_cohort_is_refused() {

@@ -8,6 +8,7 @@
 
 #include "engine/label_finisher.h"
 #include "imaging/regions/margin.h"
+#include "solver/inside_region.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/labels_desktop.h"
@@ -26,6 +27,7 @@ class FinishLabelsStoryTest : public QObject {
   void a_tool_works_on_the_case_that_is_seen();
   void a_preview_follows_the_locks_of_labels();
   void each_tool_has_its_amount_after_any_other();
+  void a_tool_waits_for_a_surface_that_moves();
   void each_case_keeps_its_chosen_label();
 
  private:
@@ -33,7 +35,7 @@ class FinishLabelsStoryTest : public QObject {
   static void choose(QWidget& in, const QString& combo, const QString& entry) {
     auto* choice = seen<QComboBox>(in, combo);
     choice->setFocus();
-    while (choice->currentIndex() > 0) QTest::keyClick(choice, Qt::Key_Up);  // Home restarts the surface
+    QTest::keyClick(choice, Qt::Key_Home);
     for (int i = 0; i < choice->count() && choice->currentText() != entry; ++i)
       QTest::keyClick(choice, Qt::Key_Down);
     QCOMPARE(choice->currentText(), entry);
@@ -207,9 +209,32 @@ void FinishLabelsStoryTest::each_tool_has_its_amount_after_any_other() {
     wait_for_preview(desktop, panel);
     click(desktop, panel, "Apply to labels");
     choose(panel, "Tool", "Grow");
-    QVERIFY2(find_seen<ui::NumberBox>(panel, "Amount"), before);
+    const auto* amount = find_seen<ui::NumberBox>(panel, "Amount");
+    QVERIFY2(amount, before);
+    QCOMPARE(amount->height(), amount->sizeHint().height());
     choose(panel, "Tool", "None");
   }
+}
+
+void FinishLabelsStoryTest::a_tool_waits_for_a_surface_that_moves() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  make_label(desktop, panel);
+  const Region before = region(desktop, 1);
+  desktop.proxy().set_pause_at_convergence(false);
+  desktop.press(Qt::Key_P);
+  choose(panel, "Tool", "Add");
+  QVERIFY(Desktop::wait_for([&] { return says(panel, "Pause the surface"); }));
+  auto* apply = seen<QAbstractButton>(panel, "Apply to labels");
+  QVERIFY(desktop.state().playing);
+  QVERIFY(!apply->isEnabled());
+  desktop.press(Qt::Key_P);
+  wait_for_preview(desktop, panel);
+  const Region wanted = tidemark::united(before, solver::inside_region(*desktop.state().phi));
+  QVERIFY(!(wanted == before));
+  click(desktop, panel, "Apply to labels");
+  QVERIFY(region(desktop, 1) == wanted);
 }
 
 void FinishLabelsStoryTest::each_case_keeps_its_chosen_label() {

@@ -6,9 +6,9 @@
 
 namespace tidemark::test {
 
-// The English ones where there is no translation.
+// As a button shows them, without the mark of its letter; the English ones where there is no translation.
 inline QString in_story_language(const char* english) {
-  return QCoreApplication::translate("", english);
+  return QCoreApplication::translate("", english).remove(QLatin1Char('&'));
 }
 
 }  // namespace tidemark::test
