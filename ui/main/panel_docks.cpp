@@ -26,7 +26,7 @@ namespace tidemark::ui {
 namespace {
 
 constexpr int kDockWidth = 320;  // logical pixels
-constexpr QSize kPassesWindow{970, 730};
+constexpr QSize kPassesWindow{970, 750};
 constexpr int kDocksVersion = 2;
 constexpr int kStateWithoutHistory = 1;       // of arrangements from before there was that panel
 constexpr const char* kInFront = "in_front";  // property of a panel

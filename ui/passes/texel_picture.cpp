@@ -20,10 +20,14 @@ constexpr double kRounding = 1e-6;  // what is smaller is rounding
 constexpr double kSmallest = 0.6;  // of captions
 
 // In which a caption is as wide as its picture at most: words of other languages are longer.
-QFont fitting(QFont font, const QString& text, int flags, int width) {
-  const QRect room(0, 0, width, QWIDGETSIZE_MAX);
-  const int needed = QFontMetrics(font).boundingRect(room, flags, text).width();
-  if (needed > width) font.setPointSizeF(font.pointSizeF() * std::max(double(width) / needed, kSmallest));
+QFont fitting(QFont font, const QStringList& pieces, int width) {
+  const auto fits = [&](const QString& piece) {
+    return QFontMetrics(font).horizontalAdvance(piece) <= width;
+  };
+  const double smallest = kSmallest * font.pointSizeF();
+  // By steps: drawn sizes are whole pixels.
+  while (font.pointSizeF() > smallest && !std::all_of(pieces.begin(), pieces.end(), fits))
+    font.setPointSizeF(font.pointSizeF() - 0.5);
   return font;
 }
 
@@ -118,9 +122,9 @@ void TexelPicture::paintEvent(QPaintEvent* /*event*/) {
   const QRect below(0, side_ + kSpaceTight / 2, side_, height() - side_);
   const QString range = range_text();
   const QString text = range.isEmpty() ? name_ : name_ + (is_narrow() ? "\n" : "  ") + range;
-  const int wrap = is_narrow() && range.isEmpty() ? Qt::TextWordWrap : 0;
-  const int flags = Qt::AlignHCenter | Qt::AlignTop | wrap;
-  painter.setFont(fitting(caption_font(font()), text, flags, side_));
+  const bool wraps = is_narrow() && range.isEmpty();
+  const int flags = Qt::AlignHCenter | Qt::AlignTop | (wraps ? Qt::TextWordWrap : 0);
+  painter.setFont(fitting(caption_font(font()), text.split(wraps ? u' ' : u'\n'), side_));
   painter.drawText(below, flags, text);
 }
 

@@ -11,6 +11,7 @@
 #include "engine/case_passes.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "tests/ui/main/story_language.h"
 #include "ui/look/theme.h"
 #include "ui/passes/pass_cards.h"
 #include "ui/passes/passes_panel.h"
@@ -42,7 +43,7 @@ const ui::TexelPicture* picture(ui::PassesPanel& panel, const QString& name) {
 }
 
 ui::PassesPanel* open_passes(Desktop& desktop) {
-  desktop.choose("Evolution", desktop.window().actions().passes);
+  desktop.choose(in_story_language("Ev&olution"), desktop.window().actions().passes);
   auto* panel = desktop.window().findChild<ui::PassesPanel*>();
   return Desktop::wait_for([&] { return panel->isVisible(); }) ? panel : nullptr;
 }
@@ -175,7 +176,8 @@ void PassesStoryTest::the_panel_offers_the_stream_executor() {
   QVERIFY(panel);
   QVERIFY2(texts(*panel).contains("Once there is a surface"), qPrintable(texts(*panel)));
   desktop.begin(kRadius);
-  desktop.choose("Evolution", desktop.window().actions().passes);  // the panel that steers came to the front
+  desktop.choose(in_story_language("Ev&olution"),
+                 desktop.window().actions().passes);  // the panel that steers came to the front
   QVERIFY(Desktop::wait_for([&] { return panel->isVisible(); }));
   desktop.proxy().step(5);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().step == 5; }));
