@@ -76,8 +76,10 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
   const auto group = group_.lock();
   const std::int64_t before = case_->level_set().step();
   const Progress progress{nullptr, std::move(stop)};
+  pace_.begin_steps();
   const std::int64_t most = run_ ? std::min(run_->steps, steps_to_next_picture()) : steps_to_next_picture();
   if (status) status = group ? group->advance(*this, progress) : advance(most, progress);
+  pace_.end_steps();
   if (run_) run_->steps -= case_->level_set().step() - before;
   if (run_ && run_->steps <= 0) playing_ = false;
   if (!status && status.error().kind != ErrorKind::cancelled &&

@@ -7,8 +7,9 @@
 namespace tidemark::engine {
 namespace {
 
-constexpr double kChunkSeconds = 0.016;  // of steps between two pictures
-constexpr std::int64_t kMostSteps = 50;  // between two pictures: it should be seen how the surface moves
+constexpr double kUpdateSeconds = 0.048;  // from picture to picture: 20 a second are seen as motion
+constexpr double kChunkSeconds = 0.016;   // of steps between two pictures, at least
+constexpr std::int64_t kMostSteps = 50;   // between two pictures: it should be seen how the surface moves
 
 }  // namespace
 
@@ -17,11 +18,21 @@ void Pace::set(double steps_per_second) {
   due_ = Engine::Clock::now();
 }
 
+void Pace::begin_steps() {
+  if (ended_ != Engine::Clock::time_point{})
+    between_s_ = std::chrono::duration<double>(Engine::Clock::now() - ended_).count();
+}
+
+void Pace::end_steps() {
+  ended_ = Engine::Clock::now();
+}
+
 std::int64_t Pace::steps_to_next_picture(double seconds_per_step) const {
   if (steps_per_picture_ > 0) return steps_per_picture_;
   if (steps_per_second_ > 0.0) return std::max(std::llround(kChunkSeconds * steps_per_second_), 1LL);
   if (seconds_per_step <= 0.0) return 1;
-  return std::clamp(std::llround(kChunkSeconds / seconds_per_step), 1LL, static_cast<long long>(kMostSteps));
+  const double chunk_s = std::max(kUpdateSeconds - between_s_, kChunkSeconds);
+  return std::clamp(std::llround(chunk_s / seconds_per_step), 1LL, static_cast<long long>(kMostSteps));
 }
 
 Engine::Clock::time_point Pace::next_due(std::int64_t steps) {
