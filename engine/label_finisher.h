@@ -24,7 +24,7 @@ class LabelFinisher : public JobRunner {
   // Whether it is of the labels, and of the surface where that has a part in it, as they are now.
   [[nodiscard]] bool is_current() const { return preview_ && is_of_now(*preview_); }
   // The same of what begin() was last called for, whatever has come of it.
-  [[nodiscard]] bool has_seen_all() const { return asked_ && is_of_now(*asked_); }
+  [[nodiscard]] bool asked_is_current() const { return asked_ && is_of_now(*asked_); }
   void cancel() { give_up(); }
   void clear();  // the preview, and what is being computed
 

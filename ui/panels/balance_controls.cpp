@@ -4,7 +4,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "engine/case_balance.h"
@@ -13,6 +12,7 @@
 #include "ui/panels/balance_text.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/into_sight.h"
 #include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
@@ -80,9 +80,7 @@ void BalanceControls::resizeEvent(QResizeEvent* event) {
 }
 
 void BalanceControls::scroll_here() {
-  for (QWidget* above = parentWidget(); above; above = above->parentWidget()) {
-    if (auto* scroll = qobject_cast<QScrollArea*>(above)) return scroll->ensureWidgetVisible(this, 0, kSpace);
-  }
+  bring_into_sight(*this);
 }
 
 void BalanceControls::refresh() {

@@ -5,10 +5,12 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QTimer>
 #include <array>
 #include <cmath>
 
 #include "ui/widgets/form.h"
+#include "ui/widgets/into_sight.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/slider_number.h"
 #include "ui/widgets/work_line.h"
@@ -192,6 +194,8 @@ void LabelToolControls::choose_tool() {
   work_->end({});
   show_row(*rows_, apply_, text != nullptr);
   if (!chosen && finisher()) finisher()->clear();
+  // Once the rows have their places.
+  if (chosen) QTimer::singleShot(0, this, [this] { bring_into_sight(*apply_); });
   if (proxy()) fill_others();
   look_again();
   show_buttons();
@@ -279,7 +283,7 @@ void LabelToolControls::attach() {
 
 void LabelToolControls::refresh() {
   fill_others();
-  if (!soon_.isActive() && !finisher()->has_seen_all()) look_again();
+  if (!soon_.isActive() && !finisher()->asked_is_current()) look_again();
   show_buttons();
 }
 

@@ -2,7 +2,6 @@
 
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "ui/look/theme.h"
@@ -10,18 +9,13 @@
 #include "ui/panels/profile_plot.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/into_sight.h"
 #include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr int kPlaces = 257;  // along the line
-
-void scroll_to(QWidget* part) {
-  for (QWidget* above = part->parentWidget(); above; above = above->parentWidget()) {
-    if (auto* scroll = qobject_cast<QScrollArea*>(above)) return scroll->ensureWidgetVisible(part, 0, kSpace);
-  }
-}
 
 }  // namespace
 
@@ -55,7 +49,7 @@ void ProfileControls::resizeEvent(QResizeEvent* event) {
   CaseWidget::resizeEvent(event);
   if (std::exchange(comes_to_sight_, false))
     QMetaObject::invokeMethod(
-        this, [this] { scroll_to(this); }, Qt::QueuedConnection);
+        this, [this] { bring_into_sight(*this); }, Qt::QueuedConnection);
 }
 
 void ProfileControls::refresh() {

@@ -212,6 +212,9 @@ void FinishLabelsStoryTest::each_tool_has_its_amount_after_any_other() {
     const auto* amount = find_seen<ui::NumberBox>(panel, "Amount");
     QVERIFY2(amount, before);
     QCOMPARE(amount->height(), amount->sizeHint().height());
+    const auto* apply = seen<QAbstractButton>(panel, "Apply to labels");
+    QVERIFY(Desktop::wait_for(
+        [&] { return !apply->visibleRegion().isEmpty(); }));  // and not below the panel's end
     choose(panel, "Tool", "None");
   }
 }

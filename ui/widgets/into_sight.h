@@ -1,0 +1,18 @@
+// A part of a panel that is scrolled into sight.
+#pragma once
+
+#include <QScrollArea>
+
+#include "ui/look/theme.h"
+
+namespace tidemark::ui {
+
+// Nothing where it is in no scroll area.
+inline void bring_into_sight(QWidget& part) {
+  for (QWidget* above = part.parentWidget(); above; above = above->parentWidget()) {
+    if (auto* scroll = qobject_cast<QScrollArea*>(above))
+      return scroll->ensureWidgetVisible(&part, 0, kSpace);
+  }
+}
+
+}  // namespace tidemark::ui
