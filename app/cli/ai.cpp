@@ -5,8 +5,8 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kGroupSummary = "Asks models on a server of the site to segment a volume";
-constexpr const char* kGroupFooter =
+constexpr const char* kAiSummary = "Asks models on a server of the site to segment a volume";
+constexpr const char* kAiFooter =
     "\nServers are named in $XDG_CONFIG_HOME/tidemark/ai.json (else ~/.config/tidemark/ai.json, else the "
     "site's),\n"
     "like this; without such a file nothing is sent anywhere:\n"
@@ -17,12 +17,11 @@ constexpr const char* kGroupFooter =
     "  tidemark-cli ai models main\n"
     "  tidemark-cli ai COMMAND --help\n";
 
-constexpr const char* kSummary = "Lists the models of a server";
-constexpr const char* kDescription =
-    "Lists the models that work on volumes, with their labels and whether they need clicks.";
-constexpr const char* kExamples =
+constexpr CommandHelp kAiModels{
+    "models", "Lists the models of a server",
+    "Lists the models that work on volumes, with their labels and whether they need clicks.",
     "  tidemark-cli ai models main\n"
-    "  tidemark-cli ai models main --servers ward.json --json\n";
+    "  tidemark-cli ai models main --servers ward.json --json\n"};
 
 const char* text_of(imaging::AiModel::Clicks clicks) {
   switch (clicks) {
@@ -35,8 +34,8 @@ const char* text_of(imaging::AiModel::Clicks clicks) {
   }
 }
 
-Status run_models(Program& program, const AiServerChoice& choice) {
-  const auto server = choice.choose();
+Status run_models(Program& program, const ServerChoice& choice) {
+  const auto server = chosen_ai_server(choice);
   if (!server) return pass_on(server);
   const auto models = imaging::ai_models(*server, program.console.progress());
   if (!models) return pass_on(models);
@@ -64,18 +63,10 @@ Status run_models(Program& program, const AiServerChoice& choice) {
 
 }  // namespace
 
-Result<imaging::AiServer> AiServerChoice::choose() const {
-  const auto configuration = imaging::read_chosen_ai_configuration(file);
+Result<imaging::AiServer> chosen_ai_server(const ServerChoice& choice) {
+  const auto configuration = imaging::read_chosen_ai_configuration(choice.file);
   if (!configuration) return pass_on(configuration);
-  return configuration->server(server);
-}
-
-void add_ai_server_choice(CLI::App& command, AiServerChoice& choice) {
-  command.add_option("SERVER", choice.server, "The name of a server in the file of servers")
-      ->required()
-      ->type_name("");
-  command.add_option("--servers", choice.file, "The file of servers, instead of the usual one")
-      ->type_name("FILE.json");
+  return configuration->server(choice.server);
 }
 
 std::string describe(const imaging::AiServer& server) {
@@ -86,13 +77,13 @@ std::string describe(const imaging::AiServer& server) {
 }
 
 void add_ai(CLI::App& app, Program& program) {
-  CLI::App& ai = *app.add_subcommand("ai", kGroupSummary);
-  ai.footer(kGroupFooter);
+  CLI::App& ai = *app.add_subcommand("ai", kAiSummary);
+  ai.footer(kAiFooter);
   ai.require_subcommand(1);
-  auto choice = std::make_shared<AiServerChoice>();
-  CLI::App& models = add_command(ai, program, {"models", kSummary, kDescription, kExamples},
-                                 [&program, choice] { return run_models(program, *choice); });
-  add_ai_server_choice(models, *choice);
+  auto choice = std::make_shared<ServerChoice>();
+  CLI::App& models =
+      add_command(ai, program, kAiModels, [&program, choice] { return run_models(program, *choice); });
+  add_server_choice(models, *choice);
   add_ai_segment(ai, program);
 }
 

@@ -4,18 +4,13 @@
 #include <string>
 
 #include "app/cli/program.h"
+#include "app/cli/server_choice.h"
 #include "imaging/ai/ai_server.h"
 
 namespace tidemark::cli {
 
-// The choice of a server, common to all of them.
-struct AiServerChoice {
-  std::string server;
-  std::string file;  // empty: ai_configuration_file()
-
-  [[nodiscard]] Result<imaging::AiServer> choose() const;
-};
-void add_ai_server_choice(CLI::App& command, AiServerChoice& choice);
+// Of ai_configuration_file() where no file was chosen.
+Result<imaging::AiServer> chosen_ai_server(const ServerChoice& choice);
 
 // "main (https://ai.example), encrypted by TLS", for people.
 std::string describe(const imaging::AiServer& server);

@@ -12,21 +12,21 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Has a model of a server segment a volume";
-constexpr const char* kDescription =
+constexpr CommandHelp kAiSegment{
+    "segment", "Has a model of a server segment a volume",
     "Sends INPUT to a server and writes what its model finds: numbers of labels, or a probability from 0 to "
     "1.\n"
     "What is sent are the voxels, their spacing, place and direction, and the clicks: no name, no number "
     "and\n"
-    "no DICOM header. The command says where they went.";
-constexpr const char* kExamples =
+    "no DICOM header. The command says where they went.",
     "  tidemark-cli ai segment main ct/ --model segmentation_spleen --out labels.nii.gz\n"
     "  tidemark-cli ai segment main ct/ --model nnInteractive --point inside:120,140,30 \\\n"
     "      --point outside:90,140,30 --out mask.nii.gz\n"
-    "  tidemark-cli segment ct/ --init mask.nii.gz --target 100 --range 40 --alpha 0.5 --out better.nii.gz\n";
+    "  tidemark-cli segment ct/ --init mask.nii.gz --target 100 --range 40 --alpha 0.5 --out "
+    "better.nii.gz\n"};
 
 struct AiSegmentOptions {
-  AiServerChoice choice;
+  ServerChoice choice;
   StudyInput study;
   std::string model;
   std::string label;
@@ -82,7 +82,7 @@ Status run(Program& program, const AiSegmentOptions& options) {
   Outputs outputs;
   TIDEMARK_TRY(outputs.announce("--out", options.out, {FileForm::volume}));
   TIDEMARK_TRY(outputs.spare(options.study.path));
-  const auto server = options.choice.choose();
+  const auto server = chosen_ai_server(options.choice);
   if (!server) return pass_on(server);
   const auto loaded = load_study(options.study, console.progress());
   if (!loaded) return pass_on(loaded);
@@ -120,9 +120,9 @@ Status run(Program& program, const AiSegmentOptions& options) {
 
 void add_ai_segment(CLI::App& ai, Program& program) {
   auto options = std::make_shared<AiSegmentOptions>();
-  CLI::App& command = add_command(ai, program, {"segment", kSummary, kDescription, kExamples},
-                                  [&program, options] { return run(program, *options); });
-  add_ai_server_choice(command, options->choice);
+  CLI::App& command =
+      add_command(ai, program, kAiSegment, [&program, options] { return run(program, *options); });
+  add_server_choice(command, options->choice);
   add_study_input(command, options->study);
   command.add_option("--model", options->model, "The name of a model, as ai models has it")
       ->required()

@@ -16,6 +16,8 @@
 
 namespace tidemark::cli {
 
+inline constexpr std::int64_t kMebibyte = std::int64_t{1} << 20;
+
 // A finite decimal number, nothing before or after it. Fails with ErrorKind::usage.
 Result<double> parse_number(std::string_view text);
 Result<std::int64_t> parse_count(std::string_view text);  // a whole number >= 0

@@ -16,18 +16,16 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Measures how fast the solver is here";
-constexpr const char* kDescription =
+constexpr CommandHelp kBench{
+    "bench", "Measures how fast the solver is here",
     "Measures the solver on a phantom made in memory: steps/s and voxel updates/s (voxels really computed) "
     "over\n"
     "three stages of equal length from the start (early, middle, late), then the run to convergence and the\n"
     "cost of steps when everything rests. Machines drift: compare figures of one run, take the median of "
-    "several.";
-
-constexpr const char* kExamples =
+    "several.",
     "  tidemark-cli bench\n"
     "  tidemark-cli bench --case cortex --threads 2 --json\n"
-    "  tidemark-cli bench --case sphere --size 256 --steps 300            256 x 256 x 256 voxels\n";
+    "  tidemark-cli bench --case sphere --size 256 --steps 300            256 x 256 x 256 voxels\n"};
 
 constexpr std::int64_t kDefaultSteps = 100;
 constexpr std::int64_t kDefaultSize = 128;
@@ -234,8 +232,8 @@ Status run(Program& program, const BenchOptions& options) {
 
 void add_bench(CLI::App& app, Program& program) {
   auto options = std::make_shared<BenchOptions>();
-  CLI::App& command = add_command(app, program, {"bench", kSummary, kDescription, kExamples},
-                                  [&program, options] { return run(program, *options); });
+  CLI::App& command =
+      add_command(app, program, kBench, [&program, options] { return run(program, *options); });
   command.add_option("--case", options->kind, "What to segment (default: tumour)")
       ->type_name("tumour|cortex|sphere");
   add_count(command, "--size", options->size,

@@ -4,8 +4,8 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kGroupSummary = "One recipe over many studies: plan, run, report, submit";
-constexpr const char* kGroupFooter =
+constexpr const char* kCohortSummary = "One recipe over many studies: plan, run, report, submit";
+constexpr const char* kCohortFooter =
     "\nExamples:\n"
     "  tidemark-cli cohort plan archive/ --recipe liver.json --auto-start --out livers\n"
     "  tidemark-cli cohort run livers --jobs 8\n"
@@ -14,8 +14,8 @@ constexpr const char* kGroupFooter =
 }  // namespace
 
 void add_cohort(CLI::App& app, Program& program) {
-  CLI::App& cohort = *app.add_subcommand("cohort", kGroupSummary);
-  cohort.footer(kGroupFooter);
+  CLI::App& cohort = *app.add_subcommand("cohort", kCohortSummary);
+  cohort.footer(kCohortFooter);
   cohort.require_subcommand(1);
   add_cohort_plan(cohort, program);
   add_cohort_run(cohort, program);

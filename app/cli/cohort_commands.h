@@ -1,9 +1,13 @@
 // The commands of the group `cohort`.
 #pragma once
 
+#include <cstdint>
+
 #include "app/cli/program.h"
 
 namespace tidemark::cli {
+
+inline constexpr std::int64_t kMostMegabytes = std::int64_t{1} << 40;  // of --memory
 
 void add_cohort_plan(CLI::App& cohort, Program& program);
 void add_cohort_run(CLI::App& cohort, Program& program);

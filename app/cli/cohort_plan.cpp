@@ -16,9 +16,8 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary =
-    "Makes a work list of studies in a folder, in BIDS, in a list or on a server";
-constexpr const char* kDescription =
+constexpr CommandHelp kCohortPlan{
+    "plan", "Makes a work list of studies in a folder, in BIDS, in a list or on a server",
     "Writes DIR/work.csv, a row a case, and DIR/plan.json; nothing is computed. SOURCE is a folder with "
     "studies\n"
     "anywhere below it, a BIDS dataset, a list (.csv, its columns named by its first line; input or server "
@@ -34,13 +33,13 @@ constexpr const char* kDescription =
     "between),\n"
     "seed_mm (x,y,z,r), threshold (lo,hi), auto_start (yes or no), speed_map, target, range, alpha, "
     "smooth_mm,\n"
-    "steps, max_steps, levels, truth, truth_label.";
-constexpr const char* kExamples =
+    "steps, max_steps, levels, truth, truth_label.",
     "  tidemark-cli cohort plan archive/ --recipe liver.json --auto-start --out livers\n"
     "  tidemark-cli cohort plan bids/ --match '*_T1w.nii.gz' --recipe brain.json --out brains\n"
     "  tidemark-cli cohort plan cases.csv --recipe liver.json --output seg --out livers\n"
     "  tidemark-cli cohort plan pacs:main --modality CT --from 2026-01-01 --recipe liver.json --out livers\n"
-    "  tidemark-cli cohort plan livers --rejected decisions.csv --recipe wider.json --out livers-2\n";
+    "  tidemark-cli cohort plan livers --rejected decisions.csv --recipe wider.json --out livers-2\n"};
+
 constexpr std::size_t kMostSaid = 100;  // problems in words; all are counted
 
 struct PlanArguments {
@@ -325,7 +324,7 @@ void add_server_options(CLI::App& command, PlanArguments& arguments) {
 
 void add_cohort_plan(CLI::App& cohort, Program& program) {
   auto arguments = std::make_shared<PlanArguments>();
-  CLI::App& command = add_command(cohort, program, {"plan", kSummary, kDescription, kExamples},
+  CLI::App& command = add_command(cohort, program, kCohortPlan,
                                   [&program, arguments] { return PlanCommand(program, *arguments).run(); });
   command
       .add_option("SOURCE", arguments->source,

@@ -10,18 +10,17 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Writes the outcome of a cohort as tables and as one page to review";
-constexpr const char* kDescription =
+constexpr CommandHelp kCohortReport{
+    "report", "Writes the outcome of a cohort as tables and as one page to review",
     "Writes DIR/report.csv, DIR/report.json and DIR/report.html, which needs nothing but a browser: a card a "
     "case\n"
     "with slices, figures and warnings, the most unusual first (robust z of volume, area, mean inside and "
     "Dice).\n"
     "Keys accept, reject and comment; the decisions are saved as CSV, which cohort plan --rejected reads. "
     "Small\n"
-    "cohorts have their pictures in the page, large ones beside it.";
-constexpr const char* kExamples =
+    "cohorts have their pictures in the page, large ones beside it.",
     "  tidemark-cli cohort report livers\n"
-    "  tidemark-cli cohort report brains --bids brains-derivatives\n";
+    "  tidemark-cli cohort report brains --bids brains-derivatives\n"};
 
 struct ReportArguments {
   std::string folder, bids;
@@ -76,8 +75,8 @@ Status run(Program& program, const ReportArguments& arguments) {
 
 void add_cohort_report(CLI::App& cohort, Program& program) {
   auto arguments = std::make_shared<ReportArguments>();
-  CLI::App& command = add_command(cohort, program, {"report", kSummary, kDescription, kExamples},
-                                  [&program, arguments] { return run(program, *arguments); });
+  CLI::App& command =
+      add_command(cohort, program, kCohortReport, [&program, arguments] { return run(program, *arguments); });
   add_cohort_folder(command, arguments->folder);
   add_choice<std::optional<cohort::PagePictures>>(
       command, "--pictures", arguments->pictures,

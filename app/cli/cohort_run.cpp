@@ -13,8 +13,8 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Computes the cases of a cohort that are not done";
-constexpr const char* kDescription =
+constexpr CommandHelp kCohortRun{
+    "run", "Computes the cases of a cohort that are not done",
     "Computes each case of DIR that is not done, in a process of its own, several at once, by the host "
     "executor.\n"
     "A case appears in DIR/cases whole, or not at all, with DIR/cases/ID/status.json. One that fails, takes "
@@ -22,15 +22,13 @@ constexpr const char* kDescription =
     "long or too much memory gets its status, too, and the others go on. Run it again after an interrupt, or "
     "on\n"
     "several machines with one disk: no case is done twice. Cases without a result end with code 0, and are\n"
-    "counted; --strict makes it 3.";
-constexpr const char* kExamples =
+    "counted; --strict makes it 3.",
     "  tidemark-cli cohort run livers --jobs 8 --timeout 600\n"
     "  tidemark-cli cohort run livers --shard 3/20\n"
-    "  tidemark-cli cohort run livers --retry --timeout 7200 --memory 16000\n";
+    "  tidemark-cli cohort run livers --retry --timeout 7200 --memory 16000\n"};
+
 constexpr std::int64_t kMostJobs = 4096;
 constexpr double kMostSeconds = 1e7;
-constexpr std::int64_t kMebi = 1 << 20;
-constexpr std::int64_t kMostMegabytes = std::int64_t{1} << 40;
 
 struct RunArguments {
   std::string folder, shard;
@@ -71,7 +69,7 @@ Result<cohort::RunOptions> options_of(const RunArguments& arguments) {
   if (options.stale_after_s < 1.0 || options.stale_after_s > kMostSeconds) {
     return fail(ErrorKind::usage, "--stale-after {}: must be 1 to {} s", options.stale_after_s, kMostSeconds);
   }
-  options.memory_bytes = arguments.memory_mb ? *arguments.memory_mb * kMebi : machine_memory() / jobs;
+  options.memory_bytes = arguments.memory_mb ? *arguments.memory_mb * kMebibyte : machine_memory() / jobs;
   if (arguments.memory_mb && (*arguments.memory_mb < 1 || *arguments.memory_mb > kMostMegabytes)) {
     return fail(ErrorKind::usage, "--memory {}: is out of range", *arguments.memory_mb);
   }
@@ -146,8 +144,8 @@ Status run(Program& program, const RunArguments& arguments) {
 
 void add_cohort_run(CLI::App& cohort, Program& program) {
   auto arguments = std::make_shared<RunArguments>();
-  CLI::App& command = add_command(cohort, program, {"run", kSummary, kDescription, kExamples},
-                                  [&program, arguments] { return run(program, *arguments); });
+  CLI::App& command =
+      add_command(cohort, program, kCohortRun, [&program, arguments] { return run(program, *arguments); });
   add_cohort_folder(command, arguments->folder);
   add_count(command, "--jobs", arguments->jobs, "Cases at once (default: as many as there are processors)");
   add_count(command, "--threads", arguments->threads, "Threads of each case (default: processors by jobs)");

@@ -9,17 +9,16 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Writes a script for Slurm that computes a cohort";
-constexpr const char* kDescription =
+constexpr CommandHelp kCohortSubmit{
+    "submit", "Writes a script for Slurm that computes a cohort",
     "Writes DIR/slurm.sh, an array of equal tasks. Each takes cases that nobody has until none is left, so "
     "that a\n"
     "task that is killed, requeued or drained costs no case, and any number of tasks will do. Prints the "
     "commands\n"
-    "that submit it: more tasks than the site allows in an array are several arrays.";
-constexpr const char* kExamples =
-    "  tidemark-cli cohort submit livers --slurm --tasks 40 --jobs 4 --memory 8000 --time 04:00:00\n";
+    "that submit it: more tasks than the site allows in an array are several arrays.",
+    "  tidemark-cli cohort submit livers --slurm --tasks 40 --jobs 4 --memory 8000 --time 04:00:00\n"};
+
 constexpr std::int64_t kMostTasks = 100'000;
-constexpr std::int64_t kMostMegabytes = std::int64_t{1} << 40;
 constexpr std::int64_t kDefaultArray = 1000;  // Slurm's own default allows 1001
 
 struct SubmitArguments {
@@ -121,8 +120,8 @@ Status run(Program& program, const SubmitArguments& arguments) {
 
 void add_cohort_submit(CLI::App& cohort, Program& program) {
   auto arguments = std::make_shared<SubmitArguments>();
-  CLI::App& command = add_command(cohort, program, {"submit", kSummary, kDescription, kExamples},
-                                  [&program, arguments] { return run(program, *arguments); });
+  CLI::App& command =
+      add_command(cohort, program, kCohortSubmit, [&program, arguments] { return run(program, *arguments); });
   add_cohort_folder(command, arguments->folder);
   command.add_flag("--slurm", arguments->slurm, "For Slurm");
   add_count(command, "--tasks", arguments->tasks, "Tasks that share the cases (default: 1)");

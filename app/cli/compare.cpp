@@ -16,8 +16,8 @@ namespace {
 
 using document::FileRegions;
 
-constexpr const char* kSummary = "Compares segmentations: overlap, volumes and distances";
-constexpr const char* kDescription =
+constexpr CommandHelp kCompare{
+    "compare", "Compares segmentations: overlap, volumes and distances",
     "Compares the segmentations A and B, and more of them each with each, on the voxels of the first: Dice, "
     "Jaccard,\n"
     "volumes in ml, what only one of them has, and the distances between their surfaces in mm, both ways "
@@ -26,12 +26,10 @@ constexpr const char* kDescription =
     "are\n"
     "taken between the middles of the voxel faces that it consists of.\n"
     "Files are volumes (every voxel that is not 0 is inside; with --labels each number is a label), DICOM\n"
-    "segmentations and RT structure sets.";
-
-constexpr const char* kExamples =
+    "segmentations and RT structure sets.",
     "  tidemark-cli compare mine.nii.gz theirs.nii.gz\n"
     "  tidemark-cli compare mine.dcm theirs.dcm --labels --json\n"
-    "  tidemark-cli compare one.nii.gz two.nii.gz three.nii.gz --staple estimate.nii.gz\n";
+    "  tidemark-cli compare one.nii.gz two.nii.gz three.nii.gz --staple estimate.nii.gz\n"};
 
 struct CompareOptions {
   std::vector<std::string> files;
@@ -40,14 +38,14 @@ struct CompareOptions {
   bool labels = false;
 };
 
-struct Row {
+struct ComparedRow {
   std::string label;
   const FileRegions* reader = nullptr;
   const FileRegions* other = nullptr;
   document::Comparison comparison;
 };
 
-Json to_json(const Row& row) {
+Json to_json(const ComparedRow& row) {
   const document::Comparison& comparison = row.comparison;
   const auto ml = [&](std::int64_t voxels) { return static_cast<double>(voxels) * comparison.voxel_ml; };
   Json object;
@@ -70,10 +68,10 @@ Json to_json(const Row& row) {
   return object;
 }
 
-void say(Console& console, const std::vector<Row>& rows, bool names_files) {
+void say(Console& console, const std::vector<ComparedRow>& rows, bool names_files) {
   console.say("{:<24} {:>7} {:>8} {:>10} {:>10} {:>9} {:>9} {:>9}", "", "Dice", "Jaccard", "A ml", "B ml",
               "mean mm", "95 % mm", "most mm");
-  for (const Row& row : rows) {
+  for (const ComparedRow& row : rows) {
     const document::Comparison& comparison = row.comparison;
     const auto& distance = comparison.distance;
     const auto mm = [&](double value) { return distance ? fmt::format("{:.3f}", value) : std::string("-"); };
@@ -98,10 +96,10 @@ std::vector<std::string> names_in(const std::vector<FileRegions>& readers) {
   return names;
 }
 
-Result<std::vector<Row>> compare_all(const std::vector<FileRegions>& readers, const Geometry& grid,
-                                     Console& console) {
+Result<std::vector<ComparedRow>> compare_all(const std::vector<FileRegions>& readers, const Geometry& grid,
+                                             Console& console) {
   const Region nothing;
-  std::vector<Row> rows;
+  std::vector<ComparedRow> rows;
   for (const std::string& name : names_in(readers)) {
     for (auto reader = readers.begin(); reader != readers.end(); ++reader) {
       for (auto other = std::next(reader); other != readers.end(); ++other) {
@@ -183,7 +181,7 @@ Status run(Program& program, const CompareOptions& options) {
   say(console, *rows, readers.size() > 2);
   Json result;
   result["comparisons"] = Json::array();
-  for (const Row& row : *rows) result["comparisons"].push_back(to_json(row));
+  for (const ComparedRow& row : *rows) result["comparisons"].push_back(to_json(row));
   if (!options.staple.empty()) {
     auto estimated = estimate(readers, *grid, options.staple, outputs, console);
     if (!estimated) return pass_on(estimated);
@@ -199,8 +197,8 @@ Status run(Program& program, const CompareOptions& options) {
 
 void add_compare(CLI::App& app, Program& program) {
   auto options = std::make_shared<CompareOptions>();
-  CLI::App& command = add_command(app, program, {"compare", kSummary, kDescription, kExamples},
-                                  [&program, options] { return run(program, *options); });
+  CLI::App& command =
+      add_command(app, program, kCompare, [&program, options] { return run(program, *options); });
   command.add_option("FILES", options->files, "Two segmentations or more: A B ...")
       ->required()
       ->type_name("");

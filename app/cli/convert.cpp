@@ -9,17 +9,15 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Writes a volume, mask or level set in other formats";
-constexpr const char* kDescription =
+constexpr CommandHelp kConvert{
+    "convert", "Writes a volume, mask or level set in other formats",
     "Writes INPUT in other formats. A volume keeps its values (HU for CT), grid and place in the patient "
     "(mm).\n"
     "A mask, which is a volume of 0 and 1 or one read with --mask, can also become a surface in patient mm\n"
     "(LPS), a DICOM segmentation, an RT structure set or an OpenVDB level set; so can labels, a saved level\n"
     "set, and what DICOM segmentations and RT structure sets hold. Overlapping segments become one volume "
     "of\n"
-    "numbers with the later one on top.";
-
-constexpr const char* kExamples =
+    "numbers with the later one on top.",
     "  tidemark-cli convert study/ --out study.nii.gz                    a DICOM series to NIfTI\n"
     "  tidemark-cli convert brain.nrrd --out brain.mha --out brain.nii   several formats at once\n"
     "  tidemark-cli convert labels.nii.gz --mask --out surface.stl       all labels as one surface\n"
@@ -27,7 +25,7 @@ constexpr const char* kExamples =
     "  tidemark-cli convert labels.nii.gz --labels --source study/ --label Liver,liver --label Mass,tumour "
     "\\\n"
     "      --out seg.dcm --rtstruct contours.dcm                         for a PACS and a planning system\n"
-    "  tidemark-cli convert contours.dcm --source study/ --out labels.nii.gz\n";
+    "  tidemark-cli convert contours.dcm --source study/ --out labels.nii.gz\n"};
 
 struct ConvertOptions {
   ConversionOptions conversion;
@@ -172,8 +170,8 @@ void add_options(CLI::App& command, ConvertOptions& options) {
 
 void add_convert(CLI::App& app, Program& program) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App& command = add_command(app, program, {"convert", kSummary, kDescription, kExamples},
-                                  [&program, options] { return run(program, *options); });
+  CLI::App& command =
+      add_command(app, program, kConvert, [&program, options] { return run(program, *options); });
   add_options(command, *options);
 }
 

@@ -11,18 +11,18 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Makes DICOM files anonymous";
-constexpr const char* kDescription =
+constexpr CommandHelp kDeidentify{
+    "deidentify", "Makes DICOM files anonymous",
     "Writes the DICOM files of INPUT to DIR without what tells who the patient is, by the Basic Application\n"
     "Level Confidentiality Profile of DICOM PS3.15. Names, IDs, dates, descriptions, comments, overlays and\n"
     "private attributes go; the same UID becomes the same new one in all files. Pixels stay as they are.\n"
     "Structured reports and documents are left out, and images with burned-in text: the command names them,\n"
-    "and ends with code 3 for the latter. Read a sample of what it wrote before you give it away.";
-constexpr const char* kExamples =
+    "and ends with code 3 for the latter. Read a sample of what it wrote before you give it away.",
     "  tidemark-cli deidentify study/ --out anonymous\n"
     "  tidemark-cli deidentify study/ --out anonymous --patient-id CASE-07 --list changes.csv\n"
     "  tidemark-cli deidentify study/ --out anonymous --shift-dates random --keep-characteristics \\\n"
-    "      --key secret.json                         PET: times are needed; the way back is in secret.json\n";
+    "      --key secret.json                         PET: times are needed; the way back is in "
+    "secret.json\n"};
 
 struct Arguments {
   std::string input, out, list, key;
@@ -58,10 +58,10 @@ Status run(Program& program, const Arguments& arguments) {
   for (const std::string& file : {arguments.list, arguments.key}) {
     if (!file.empty()) console.say("Wrote      {}", file);
   }
-  say(console, *result, arguments.options);
+  say_deidentified(console, *result, arguments.options);
   Json object;
   object["folder"] = arguments.out;
-  object.update(to_json(*result, arguments.options));
+  object.update(deidentified_json(*result, arguments.options));
   console.result(object);
   return require_complete(*result);
 }
@@ -70,8 +70,8 @@ Status run(Program& program, const Arguments& arguments) {
 
 void add_deidentify(CLI::App& app, Program& program) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = add_command(app, program, {"deidentify", kSummary, kDescription, kExamples},
-                                  [&program, arguments] { return run(program, *arguments); });
+  CLI::App& command =
+      add_command(app, program, kDeidentify, [&program, arguments] { return run(program, *arguments); });
   command.add_option("INPUT", arguments->input, "A folder of DICOM files, or a file")
       ->required()
       ->type_name("");

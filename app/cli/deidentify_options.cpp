@@ -82,7 +82,8 @@ void add_deidentify_options(CLI::App& command, imaging::DeidentifyOptions& optio
                    "ultrasound. Pixels are never changed");
 }
 
-void say(Console& console, const imaging::Deidentified& result, const imaging::DeidentifyOptions& options) {
+void say_deidentified(Console& console, const imaging::Deidentified& result,
+                      const imaging::DeidentifyOptions& options) {
   using imaging::Change;
   console.say("Changed    {} values removed, {} emptied, {} replaced, {} moved",
               result.counts[Change::removed], result.counts[Change::emptied], result.counts[Change::replaced],
@@ -99,7 +100,7 @@ void say(Console& console, const imaging::Deidentified& result, const imaging::D
   }
 }
 
-Json to_json(const imaging::Deidentified& result, const imaging::DeidentifyOptions& options) {
+Json deidentified_json(const imaging::Deidentified& result, const imaging::DeidentifyOptions& options) {
   Json object;
   object["files"] = result.files.size();
   object["series"] = result.series;

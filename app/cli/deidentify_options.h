@@ -14,10 +14,12 @@ namespace tidemark::cli {
 void add_deidentify_options(CLI::App& command, imaging::DeidentifyOptions& options);
 
 // Lines for people and, on standard error, what was left out and what may show who it is.
-void say(Console& console, const imaging::Deidentified& result, const imaging::DeidentifyOptions& options);
+void say_deidentified(Console& console, const imaging::Deidentified& result,
+                      const imaging::DeidentifyOptions& options);
 
 // The same for scripts.
-[[nodiscard]] Json to_json(const imaging::Deidentified& result, const imaging::DeidentifyOptions& options);
+[[nodiscard]] Json deidentified_json(const imaging::Deidentified& result,
+                                     const imaging::DeidentifyOptions& options);
 
 // Fails (ErrorKind::input) where files were left out that are neither documents nor something else than
 // DICOM.

@@ -13,18 +13,17 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Turns a mask into the signed distance to its surface";
-constexpr const char* kDescription =
+constexpr CommandHelp kDistance{
+    "distance", "Turns a mask into the signed distance to its surface",
     "Turns MASK (every voxel that is not 0) into the signed distance to its surface: in mm, > 0 inside,\n"
     "clamped at the band's half-width. Computed by the level set's rescaling term alone, without brightness "
     "or\n"
-    "curvature, from the exact distance to the mask's voxel faces, until nothing moves (500 steps at most).";
-
-constexpr const char* kExamples =
+    "curvature, from the exact distance to the mask's voxel faces, until nothing moves (500 steps at most).",
     "  tidemark-cli distance mask.nii.gz --out distance.nii.gz\n"
-    "  tidemark-cli distance mask.nii.gz --band 10 --out distance.nrrd     10 smallest voxel spacings wide\n";
+    "  tidemark-cli distance mask.nii.gz --band 10 --out distance.nrrd     10 smallest voxel spacings "
+    "wide\n"};
 
-constexpr std::int64_t kMostSteps = 500;
+constexpr std::int64_t kStepsAtMost = 500;
 
 struct DistanceOptions {
   std::string mask;
@@ -98,7 +97,7 @@ Status run(Program& program, const DistanceOptions& options) {
   if (!executor) return pass_on(executor);
   solver::Executor& solver = **executor;
   TIDEMARK_TRY(solver.restore(solver::distance_transform(mask, solver.band())));
-  const auto report = solver.advance(solver::Advance{kMostSteps, true, console.progress()});
+  const auto report = solver.advance(solver::Advance{kStepsAtMost, true, console.progress()});
   if (!report) return pass_on(report);
   if (console.interrupted()) return cancelled_error();
 
@@ -125,8 +124,8 @@ Status run(Program& program, const DistanceOptions& options) {
 
 void add_distance(CLI::App& app, Program& program) {
   auto options = std::make_shared<DistanceOptions>();
-  CLI::App& command = add_command(app, program, {"distance", kSummary, kDescription, kExamples},
-                                  [&program, options] { return run(program, *options); });
+  CLI::App& command =
+      add_command(app, program, kDistance, [&program, options] { return run(program, *options); });
   command.add_option("MASK", options->mask, "A mask: every voxel that is not 0 is inside")
       ->required()
       ->type_name("");

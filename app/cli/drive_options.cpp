@@ -15,7 +15,7 @@
 namespace tidemark::cli {
 namespace {
 
-const char* const kGroup = "Speed";
+const char* const kSpeedGroup = "Speed";
 
 // "tent|regions|edges"
 std::string function_names() {
@@ -151,13 +151,13 @@ void add_image_options(CLI::App& app, DriveOptions& options) {
          "be repeated")
       ->allow_extra_args(false)
       ->type_name("FILE")
-      ->group(kGroup);
+      ->group(kSpeedGroup);
   app.add_option(
          "--speed-image", options.map,
          "With --speed image: a probability (0 to 1) or a speed (-1 to 1), as a volume file on the same\n"
          "grid, a DICOM parametric map or a DICOM segmentation (its fractions)")
       ->type_name("FILE")
-      ->group(kGroup);
+      ->group(kSpeedGroup);
 }
 
 void add_drive_options(CLI::App& app, DriveOptions& options) {
@@ -167,35 +167,35 @@ void add_drive_options(CLI::App& app, DriveOptions& options) {
   app.add_option("--speed", options.functions, text)
       ->allow_extra_args(false)
       ->type_name(function_names())
-      ->group(kGroup);
+      ->group(kSpeedGroup);
   add_choice<std::optional<solver::Combine>>(
       app, "--combine", options.combine,
       {{"least", solver::Combine::least}, {"product", solver::Combine::product}},
       "Of several: the least speed (default), or the product of their probabilities")
-      ->group(kGroup);
+      ->group(kSpeedGroup);
   app.add_option("--speed-value", options.values, values_help())
       ->allow_extra_args(false)
       ->type_name("FUNCTION.NAME=NUMBER")
-      ->group(kGroup);
+      ->group(kSpeedGroup);
   add_image_options(app, options);
   app.add_option("--examples", options.examples,
                  "With --speed examples: a label file on the same grid, 1 inside and 2 outside")
       ->type_name("LABELS")
-      ->group(kGroup);
+      ->group(kSpeedGroup);
   app.add_option("--walls", options.walls,
                  "Voxels that the surface may never enclose: a mask on the same grid")
       ->type_name("MASK")
-      ->group(kGroup);
+      ->group(kSpeedGroup);
   app.add_option("--anchors", options.anchors,
                  "Voxels that the surface always encloses: a mask on the same grid")
       ->type_name("MASK")
-      ->group(kGroup);
+      ->group(kSpeedGroup);
 }
 
 void add_within_option(CLI::App& app, DriveOptions& options) {
   add_number(app, "--within", options.within_mm,
              "With --init: the surface stays within so many mm of the mask's")
-      ->group(kGroup);
+      ->group(kSpeedGroup);
 }
 
 Status check(const DriveOptions& options, bool starts_from_mask) {

@@ -15,8 +15,8 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Makes a film of an evolution, or of a turn around a surface";
-constexpr const char* kDescription =
+constexpr CommandHelp kFilm{
+    "film", "Makes a film of an evolution, or of a turn around a surface",
     "Draws INPUT as render does, picture after picture, into a GIF file that plays for ever.\n\n"
     "With --recipe the pictures show the surface as the recipe moves it, from its start to its end, one "
     "every\n"
@@ -24,11 +24,10 @@ constexpr const char* kDescription =
     "by\n"
     "so many degrees of azimuth, over the whole film. With both it does so while the surface moves. Slices "
     "and\n"
-    "--fit go by the surface at the end.";
-constexpr const char* kExamples =
+    "--fit go by the surface at the end.",
     "  tidemark-cli film study/ --recipe liver.json --view axial --out growth.gif\n"
     "  tidemark-cli film study/ --mask liver.nii.gz --turn 360 --frames 90 --out liver.gif\n"
-    "  tidemark-cli film study/ --recipe liver.json --every 5 --turn 90 --size 640x480 --out both.gif\n";
+    "  tidemark-cli film study/ --recipe liver.json --every 5 --turn 90 --size 640x480 --out both.gif\n"};
 
 constexpr std::int64_t kFrames = 60;
 constexpr std::int64_t kMostFrames = 2000;
@@ -193,8 +192,8 @@ Status run(Program& program, const FilmOptions& options) {
 
 void add_film(CLI::App& app, Program& program) {
   auto options = std::make_shared<FilmOptions>();
-  CLI::App& command = add_command(app, program, {"film", kSummary, kDescription, kExamples},
-                                  [&program, options] { return run(program, *options); });
+  CLI::App& command =
+      add_command(app, program, kFilm, [&program, options] { return run(program, *options); });
   add_render_options(command, options->render);
   command.add_option("--recipe", options->render.recipe, "A recipe (.json) whose evolution is shown");
   add_number(command, "--turn", options->turn,

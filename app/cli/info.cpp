@@ -8,20 +8,18 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Lists the series found under a path";
-constexpr const char* kDescription =
+constexpr CommandHelp kInfo{
+    "info", "Lists the series found under a path",
     "Lists the series under PATH: size in voxels (i,j,k), spacing in mm, orientation and origin in patient\n"
     "coordinates (LPS, mm), the frame of reference and which other series share it, transfer syntax, and\n"
     "whether and why not they can be loaded.\n"
     "A DICOM series that holds several volumes (echoes, times, b-values, stacks) is listed volume by "
     "volume,\n"
-    "each with its number behind the UID: 1.2.3#2. Without a number --series takes the largest.";
-
-constexpr const char* kExamples =
+    "each with its number behind the UID: 1.2.3#2. Without a number --series takes the largest.",
     "  tidemark-cli info study/                 every DICOM series below a folder\n"
     "  tidemark-cli info brain.nii.gz           one volume file\n"
     "  tidemark-cli info study/ --json          the same for programs\n"
-    "  tidemark-cli info study/ --gaps fill     with missing slices interpolated\n";
+    "  tidemark-cli info study/ --gaps fill     with missing slices interpolated\n"};
 
 Json triple(const glm::dvec3& v) {
   return Json::array({v.x, v.y, v.z});
@@ -153,8 +151,7 @@ Status run(Program& program, const StudyInput& study) {
 
 void add_info(CLI::App& app, Program& program) {
   auto study = std::make_shared<StudyInput>();
-  CLI::App& command = add_command(app, program, {"info", kSummary, kDescription, kExamples},
-                                  [&program, study] { return run(program, *study); });
+  CLI::App& command = add_command(app, program, kInfo, [&program, study] { return run(program, *study); });
   command
       .add_option("PATH", study->path,
                   "A DICOM folder, file or DICOMDIR, a volume file, or a zip archive of these")

@@ -13,33 +13,31 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kGroupSummary = "Lists, shows and checks lessons";
-constexpr const char* kGroupFooter =
+constexpr const char* kLessonSummary = "Lists, shows and checks lessons";
+constexpr const char* kLessonFooter =
     "\nExamples:\n"
     "  tidemark-cli lesson list\n"
     "  tidemark-cli lesson COMMAND --help\n";
 
-constexpr const char* kListSummary = "Lists the program's own lessons";
-constexpr const char* kListDescription =
-    "One line a lesson: its name, the minutes that a student needs, and its title.";
-constexpr const char* kListExamples =
+constexpr CommandHelp kLessonList{
+    "list", "Lists the program's own lessons",
+    "One line a lesson: its name, the minutes that a student needs, and its title.",
     "  tidemark-cli lesson list\n"
-    "  tidemark-cli lesson list --json\n";
+    "  tidemark-cli lesson list --json\n"};
 
-constexpr const char* kShowSummary = "Writes one of the program's own lessons, to begin another with";
-constexpr const char* kShowDescription =
-    "Writes the lesson's file (JSON; lengths in mm) to standard output, with --json as without.";
-constexpr const char* kShowExamples = "  tidemark-cli lesson show 4-leaks >mine.json\n";
+constexpr CommandHelp kLessonShow{
+    "show", "Writes one of the program's own lessons, to begin another with",
+    "Writes the lesson's file (JSON; lengths in mm) to standard output, with --json as without.",
+    "  tidemark-cli lesson show 4-leaks >mine.json\n"};
 
-constexpr const char* kCheckSummary = "Carries out every try of lessons and measures its figures";
-constexpr const char* kCheckDescription =
+constexpr CommandHelp kLessonCheck{
+    "check", "Carries out every try of lessons and measures its figures",
     "Carries out every try of each LESSON, from its start (radii in mm), and holds each figure against its\n"
     "expected range. A LESSON is a file, or the name of one of the program's own; without any it is all of\n"
-    "these. Ends with code 3 where a file is refused or a figure is out of its range.";
-constexpr const char* kCheckExamples =
+    "these. Ends with code 3 where a file is refused or a figure is out of its range.",
     "  tidemark-cli lesson check\n"
     "  tidemark-cli lesson check 2-curvature-flow --executor stream\n"
-    "  tidemark-cli lesson check mine.json --json\n";
+    "  tidemark-cli lesson check mine.json --json\n"};
 
 struct CheckArguments {
   std::vector<std::string> lessons;
@@ -230,17 +228,16 @@ Json CheckCommand::check_figure(const NamedLesson& named, const document::Lesson
 }  // namespace
 
 void add_lesson(CLI::App& app, Program& program) {
-  CLI::App& lesson = *app.add_subcommand("lesson", kGroupSummary);
-  lesson.footer(kGroupFooter);
+  CLI::App& lesson = *app.add_subcommand("lesson", kLessonSummary);
+  lesson.footer(kLessonFooter);
   lesson.require_subcommand(1);
-  add_command(lesson, program, {"list", kListSummary, kListDescription, kListExamples},
-              [&program] { return run_list(program); });
+  add_command(lesson, program, kLessonList, [&program] { return run_list(program); });
   auto name = std::make_shared<std::string>();
-  CLI::App& show = add_command(lesson, program, {"show", kShowSummary, kShowDescription, kShowExamples},
-                               [&program, name] { return run_show(program, *name); });
+  CLI::App& show =
+      add_command(lesson, program, kLessonShow, [&program, name] { return run_show(program, *name); });
   show.add_option("NAME", *name, "A name that lesson list shows")->required()->type_name("");
   auto arguments = std::make_shared<CheckArguments>();
-  CLI::App& check = add_command(lesson, program, {"check", kCheckSummary, kCheckDescription, kCheckExamples},
+  CLI::App& check = add_command(lesson, program, kLessonCheck,
                                 [&program, arguments] { return CheckCommand(program, *arguments).run(); });
   check.add_option("LESSON", arguments->lessons, "Files, or names that lesson list shows")->type_name("");
   add_solver_options(check, arguments->solver);

@@ -20,8 +20,8 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Measures segmentations: volume, diameters, form, and values inside";
-constexpr const char* kDescription =
+constexpr CommandHelp kMeasure{
+    "measure", "Measures segmentations: volume, diameters, form, and values inside",
     "Measures the regions of SEGMENTATION on the voxels of INPUT: volume and surface, sphericity, the "
     "longest\n"
     "diameter, the longest one in an axial slice with the longest at right angles to it (RECIST's two), the\n"
@@ -30,15 +30,13 @@ constexpr const char* kDescription =
     "Diameters end at the middles of voxel faces; places are mm in the patient (LPS).\n"
     "SEGMENTATION is a volume (every voxel that is not 0 is inside; with --labels each number is a label), "
     "a\n"
-    "DICOM segmentation or an RT structure set.";
-
-constexpr const char* kExamples =
+    "DICOM segmentation or an RT structure set.",
     "  tidemark-cli measure ct/ tumour.nii.gz\n"
     "  tidemark-cli measure ct/ labels.dcm --labels --image pet/ --csv measures.csv\n"
     "  tidemark-cli measure ct/ labels.dcm --labels --report report.dcm\n"
     "  tidemark-cli measure ct/ labels.dcm --labels --key-images key.dcm --presentation outlines.dcm\n"
     "  tidemark-cli measure may/ may.dcm --labels --json > may.json\n"
-    "  tidemark-cli measure june/ june.dcm --labels --before may.json      how much they changed\n";
+    "  tidemark-cli measure june/ june.dcm --labels --before may.json      how much they changed\n"};
 
 constexpr std::size_t kMostRegions = 65'535;
 
@@ -55,7 +53,7 @@ struct MeasureOptions {
   bool labels = false;
 };
 
-struct Row {
+struct MeasuredRow {
   std::size_t index = 0;  // of the file's regions
   std::string label;
   document::Measures measures;
@@ -97,11 +95,12 @@ std::string percent(const Json& change) {
 
 // Regions of the same name, and the sum of the diameters of those that both studies have (RECIST 1.1 adds the
 // longest diameters of its target lesions).
-Json changes_since(const std::vector<Earlier>& earlier, const std::vector<Row>& rows, Console& console) {
+Json changes_since(const std::vector<Earlier>& earlier, const std::vector<MeasuredRow>& rows,
+                   Console& console) {
   Json object{{"regions", Json::array()}, {"missing", Json::array()}};
   double sum = 0.0;
   double sum_before = 0.0;
-  for (const Row& row : rows) {
+  for (const MeasuredRow& row : rows) {
     const auto before = std::find_if(earlier.begin(), earlier.end(),
                                      [&](const Earlier& one) { return one.label == row.label; });
     const Earlier was = before == earlier.end() ? Earlier{} : *before;
@@ -116,7 +115,7 @@ Json changes_since(const std::vector<Earlier>& earlier, const std::vector<Row>& 
     sum_before += was.diameter_mm;
   }
   for (const Earlier& one : earlier) {
-    if (std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.label == one.label; }))
+    if (std::any_of(rows.begin(), rows.end(), [&](const MeasuredRow& row) { return row.label == one.label; }))
       continue;
     object["missing"].push_back(one.label);
     console.say("{:<24} is no longer there", one.label);
@@ -129,10 +128,10 @@ Json changes_since(const std::vector<Earlier>& earlier, const std::vector<Row>& 
   return object;
 }
 
-void say(Console& console, const std::vector<Row>& rows) {
+void say(Console& console, const std::vector<MeasuredRow>& rows) {
   console.say("{:<24} {:>10} {:>9} {:>10} {:>10} {:>9} {:>9} {:>9}", "", "ml", "longest", "in a slice",
               "across", "mean", "SD", "median");
-  for (const Row& row : rows) {
+  for (const MeasuredRow& row : rows) {
     const imaging::Diameters& diameters = row.measures.diameters;
     for (const document::ImageValues& image : row.measures.images) {
       const bool first = &image == &row.measures.images.front();
@@ -154,7 +153,7 @@ void say(Console& console, const std::vector<Row>& rows) {
   }
 }
 
-std::string csv_of(const std::vector<Row>& rows) {
+std::string csv_of(const std::vector<MeasuredRow>& rows) {
   std::vector<std::string> header{"label",     "image",      "unit",       "voxels",      "volume_ml",
                                   "area_mm2",  "sphericity", "longest_mm", "in_slice_mm", "across_mm",
                                   "reach1_mm", "reach2_mm",  "reach3_mm",  "mean",        "sd",
@@ -163,7 +162,7 @@ std::string csv_of(const std::vector<Row>& rows) {
   header.insert(header.end(), {"peak_1ml", "total_glycolysis"});
   std::string csv = csv_line(header);
   const auto number = [](double value) { return fmt::format("{:.10g}", value); };
-  for (const Row& row : rows) {
+  for (const MeasuredRow& row : rows) {
     const document::Measures& all = row.measures;
     const imaging::Diameters& d = all.diameters;
     for (const document::ImageValues& image : all.images) {
@@ -201,9 +200,10 @@ Result<std::vector<document::MeasuredImage>> images_on(const Geometry& grid, Vol
   return images;
 }
 
-Result<std::vector<Row>> measure_all(const document::FileRegions& regions, const Geometry& grid,
-                                     const std::vector<document::MeasuredImage>& images, Console& console) {
-  std::vector<Row> rows;
+Result<std::vector<MeasuredRow>> measure_all(const document::FileRegions& regions, const Geometry& grid,
+                                             const std::vector<document::MeasuredImage>& images,
+                                             Console& console) {
+  std::vector<MeasuredRow> rows;
   for (std::size_t index = 0; index < regions.list.size(); ++index) {
     const auto& [label, region] = regions.list[index];
     if (region.empty()) {
@@ -217,15 +217,16 @@ Result<std::vector<Row>> measure_all(const document::FileRegions& regions, const
   return rows;
 }
 
-Status write_files(const std::vector<Row>& rows, const std::string& modality, const MeasureOptions& options,
-                   Outputs& outputs) {
+Status write_files(const std::vector<MeasuredRow>& rows, const std::string& modality,
+                   const MeasureOptions& options, Outputs& outputs) {
   if (!options.csv.empty()) {
     TIDEMARK_TRY(outputs.stage(
         options.csv, [&](const std::filesystem::path& file) { return write_file(file, csv_of(rows)); }));
   }
   if (!options.report.empty()) {
     std::vector<imaging::ReportedSegment> segments;
-    for (const Row& row : rows) segments.push_back({row.index, document::coded(row.measures, modality)});
+    for (const MeasuredRow& row : rows)
+      segments.push_back({row.index, document::coded(row.measures, modality)});
     TIDEMARK_TRY(outputs.stage(options.report, [&](const std::filesystem::path& file) {
       return imaging::write_measurement_report(options.file, segments, modality, file);
     }));
@@ -309,7 +310,7 @@ Status run(Program& program, const MeasureOptions& options) {
 
   say(console, *rows);
   Json result{{"regions", Json::array()}};
-  for (const Row& row : *rows) {
+  for (const MeasuredRow& row : *rows) {
     Json region;
     if (options.labels) region["label"] = row.label;
     region.update(document::to_json(row.measures));
@@ -328,8 +329,8 @@ Status run(Program& program, const MeasureOptions& options) {
 
 void add_measure(CLI::App& app, Program& program) {
   auto options = std::make_shared<MeasureOptions>();
-  CLI::App& command = add_command(app, program, {"measure", kSummary, kDescription, kExamples},
-                                  [&program, options] { return run(program, *options); });
+  CLI::App& command =
+      add_command(app, program, kMeasure, [&program, options] { return run(program, *options); });
   add_study_input(command, options->study);
   command.add_option("SEGMENTATION", options->file, "The regions that are measured")
       ->required()

@@ -6,8 +6,8 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kGroupSummary = "Asks a PACS, brings series from it and sends files to it";
-constexpr const char* kGroupFooter =
+constexpr const char* kPacsSummary = "Asks a PACS, brings series from it and sends files to it";
+constexpr const char* kPacsFooter =
     "\nServers are named in $XDG_CONFIG_HOME/tidemark/pacs.json (else ~/.config/tidemark/pacs.json), like "
     "this:\n"
     "  {\"servers\": [{\"name\": \"main\", \"host\": \"pacs.example\", \"port\": 104, \"ae_title\": "
@@ -16,14 +16,13 @@ constexpr const char* kGroupFooter =
     "  tidemark-cli pacs echo main\n"
     "  tidemark-cli pacs COMMAND --help\n";
 
-constexpr const char* kSummary = "Asks whether a server answers";
-constexpr const char* kDescription = "Calls the server and says how long its answer took.";
-constexpr const char* kExamples =
-    "  tidemark-cli pacs echo main\n"
-    "  tidemark-cli pacs echo main --servers ward.json --json\n";
+constexpr CommandHelp kPacsEcho{"echo", "Asks whether a server answers",
+                                "Calls the server and says how long its answer took.",
+                                "  tidemark-cli pacs echo main\n"
+                                "  tidemark-cli pacs echo main --servers ward.json --json\n"};
 
 Status run_echo(Program& program, const ServerChoice& choice) {
-  const auto chosen = choice.choose();
+  const auto chosen = chosen_pacs(choice);
   if (!chosen) return pass_on(chosen);
   const imaging::PacsServer& server = chosen->server;
   const auto seconds = imaging::pacs_echo(server, program.console.progress());
@@ -46,29 +45,21 @@ Status run_echo(Program& program, const ServerChoice& choice) {
 
 }  // namespace
 
-Result<ServerChoice::Chosen> ServerChoice::choose() const {
-  const auto configuration = imaging::read_chosen_pacs_configuration(file);
+Result<ChosenPacs> chosen_pacs(const ServerChoice& choice) {
+  const auto configuration = imaging::read_chosen_pacs_configuration(choice.file);
   if (!configuration) return pass_on(configuration);
-  auto chosen = configuration->server(server);
+  auto chosen = configuration->server(choice.server);
   if (!chosen) return pass_on(chosen);
-  return Chosen{std::move(*chosen), configuration->limits};
-}
-
-void add_server_choice(CLI::App& command, ServerChoice& choice) {
-  command.add_option("SERVER", choice.server, "The name of a server in the file of servers")
-      ->required()
-      ->type_name("");
-  command.add_option("--servers", choice.file, "The file of servers, instead of the usual one")
-      ->type_name("FILE.json");
+  return ChosenPacs{std::move(*chosen), configuration->limits};
 }
 
 void add_pacs(CLI::App& app, Program& program) {
-  CLI::App& pacs = *app.add_subcommand("pacs", kGroupSummary);
-  pacs.footer(kGroupFooter);
+  CLI::App& pacs = *app.add_subcommand("pacs", kPacsSummary);
+  pacs.footer(kPacsFooter);
   pacs.require_subcommand(1);
   auto choice = std::make_shared<ServerChoice>();
-  CLI::App& echo = add_command(pacs, program, {"echo", kSummary, kDescription, kExamples},
-                               [&program, choice] { return run_echo(program, *choice); });
+  CLI::App& echo =
+      add_command(pacs, program, kPacsEcho, [&program, choice] { return run_echo(program, *choice); });
   add_server_choice(echo, *choice);
   add_pacs_find(pacs, program);
   add_pacs_get(pacs, program);

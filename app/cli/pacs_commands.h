@@ -6,22 +6,17 @@
 #include <vector>
 
 #include "app/cli/program.h"
+#include "app/cli/server_choice.h"
 #include "imaging/pacs/services.h"
 
 namespace tidemark::cli {
 
-// The choice of a server, common to all of them.
-struct ServerChoice {
-  std::string server;
-  std::string file;  // empty: pacs_configuration_file()
-
-  struct Chosen {
-    imaging::PacsServer server;
-    imaging::PacsLimits limits;
-  };
-  [[nodiscard]] Result<Chosen> choose() const;
+struct ChosenPacs {
+  imaging::PacsServer server;
+  imaging::PacsLimits limits;
 };
-void add_server_choice(CLI::App& command, ServerChoice& choice);
+// Of pacs_configuration_file() where no file was chosen.
+Result<ChosenPacs> chosen_pacs(const ServerChoice& choice);
 
 // The keys of a query for studies. `of_studies` alone make no sense for the series of a study.
 struct StudyKeys {

@@ -5,15 +5,14 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Lists a server's studies, or the series of a study";
-constexpr const char* kDescription =
+constexpr CommandHelp kPacsFind{
+    "find", "Lists a server's studies, or the series of a study",
     "Lists the studies that match all that is given, or with --study that study's series. Texts may hold "
     "the\n"
     "wildcards * and ?; what counts as a match is the server's to decide, such as capital letters. Standard\n"
-    "output holds what the server says about patients.";
-constexpr const char* kExamples =
+    "output holds what the server says about patients.",
     "  tidemark-cli pacs find main --patient-name 'Doe*' --from 2026-01-01 --modality CT\n"
-    "  tidemark-cli pacs find main --study 1.2.840.99.7\n";
+    "  tidemark-cli pacs find main --study 1.2.840.99.7\n"};
 
 struct FindOptions {
   ServerChoice choice;
@@ -95,7 +94,7 @@ Status report(Console& console, const char* key, const Result<imaging::Found<Ent
 }
 
 Status run(Program& program, const FindOptions& options) {
-  const auto chosen = options.choice.choose();
+  const auto chosen = chosen_pacs(options.choice);
   if (!chosen) return pass_on(chosen);
   Console& console = program.console;
   const imaging::StudyQuery& query = options.studies;
@@ -129,8 +128,8 @@ StudyKeys add_study_keys(CLI::App& command, imaging::StudyQuery& query, const ch
 
 void add_pacs_find(CLI::App& pacs, Program& program) {
   auto options = std::make_shared<FindOptions>();
-  CLI::App& command = add_command(pacs, program, {"find", kSummary, kDescription, kExamples},
-                                  [&program, options] { return run(program, *options); });
+  CLI::App& command =
+      add_command(pacs, program, kPacsFind, [&program, options] { return run(program, *options); });
   add_server_choice(command, options->choice);
   imaging::StudyQuery& query = options->studies;
   const StudyKeys keys = add_study_keys(command, query, "Of the study; with --study, of the series");

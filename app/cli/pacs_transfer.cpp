@@ -15,28 +15,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGetSummary = "Brings a series or a study from a server";
-constexpr const char* kGetDescription =
+constexpr CommandHelp kPacsGet{
+    "get", "Brings a series or a study from a server",
     "Brings the objects of a series, or of all series of a study, into DIR, as the server's entry says: on "
     "one\n"
     "connection (\"retrieve\": \"get\"), or by the server's own calls to this machine (\"move\"). Where some "
     "objects\n"
     "could not come, those that came stay and the command ends with code 3; otherwise a failure leaves "
-    "nothing.";
-constexpr const char* kGetExamples =
+    "nothing.",
     "  tidemark-cli pacs get main --study 1.2.840.99.7 --series 1.2.840.99.7.2 --out series\n"
-    "  tidemark-cli info series\n";
+    "  tidemark-cli info series\n"};
 
-constexpr const char* kSendSummary = "Sends DICOM files to a server";
-constexpr const char* kSendDescription =
+constexpr CommandHelp kPacsSend{
+    "send", "Sends DICOM files to a server",
     "Sends DICOM files, and those in folders, as they are: a server that does not take a file's compression "
     "does\n"
     "not get that file. Where some files could not be sent, the command names them and ends with code 3.\n"
-    "With --deidentify anonymous copies are sent, as the command deidentify makes them without an option.";
-constexpr const char* kSendExamples =
+    "With --deidentify anonymous copies are sent, as the command deidentify makes them without an option.",
     "  tidemark-cli pacs send main series/\n"
     "  tidemark-cli pacs send main mask.dcm --json\n"
-    "  tidemark-cli pacs send research series/ --deidentify\n";
+    "  tidemark-cli pacs send research series/ --deidentify\n"};
 
 struct GetOptions {
   ServerChoice choice;
@@ -50,7 +48,7 @@ struct SendOptions {
 };
 
 Status run_get(Program& program, const GetOptions& options) {
-  const auto chosen = options.choice.choose();
+  const auto chosen = chosen_pacs(options.choice);
   if (!chosen) return pass_on(chosen);
   Console& console = program.console;
   const auto retrieved =
@@ -113,8 +111,8 @@ Result<AnonymousCopies> make_copies(const std::vector<fs::path>& files, Console&
 }
 
 // `copies`: what the files are, if they are such.
-Status send_all(const ServerChoice::Chosen& chosen, const std::vector<fs::path>& files,
-                const AnonymousCopies* copies, Console& console) {
+Status send_all(const ChosenPacs& chosen, const std::vector<fs::path>& files, const AnonymousCopies* copies,
+                Console& console) {
   const auto sent = imaging::send_files(chosen.server, files, console.progress());
   if (!sent) return pass_on(sent);
   console.say("Sent       {} objects, {:.1f} MB", sent->objects, static_cast<double>(sent->bytes) / 1e6);
@@ -128,8 +126,8 @@ Status send_all(const ServerChoice::Chosen& chosen, const std::vector<fs::path>&
     object["unsent"].push_back({{"file", file.string()}, {"reason", one.reason}});
   }
   if (copies != nullptr) {
-    say(console, copies->made, {});
-    object["deidentified"] = to_json(copies->made, {});
+    say_deidentified(console, copies->made, {});
+    object["deidentified"] = deidentified_json(copies->made, {});
   }
   console.result(object);
   if (!sent->unsent.empty()) {
@@ -139,7 +137,7 @@ Status send_all(const ServerChoice::Chosen& chosen, const std::vector<fs::path>&
 }
 
 Status run_send(Program& program, const SendOptions& options) {
-  const auto chosen = options.choice.choose();
+  const auto chosen = chosen_pacs(options.choice);
   if (!chosen) return pass_on(chosen);
   const auto files = files_of(options.paths);
   if (!files) return pass_on(files);
@@ -159,8 +157,8 @@ Status run_send(Program& program, const SendOptions& options) {
 
 void add_pacs_get(CLI::App& pacs, Program& program) {
   auto options = std::make_shared<GetOptions>();
-  CLI::App& command = add_command(pacs, program, {"get", kGetSummary, kGetDescription, kGetExamples},
-                                  [&program, options] { return run_get(program, *options); });
+  CLI::App& command =
+      add_command(pacs, program, kPacsGet, [&program, options] { return run_get(program, *options); });
   add_server_choice(command, options->choice);
   command.add_option("--study", options->request.study_uid, "The study (see find)")
       ->required()
@@ -176,8 +174,8 @@ void add_pacs_get(CLI::App& pacs, Program& program) {
 
 void add_pacs_send(CLI::App& pacs, Program& program) {
   auto options = std::make_shared<SendOptions>();
-  CLI::App& command = add_command(pacs, program, {"send", kSendSummary, kSendDescription, kSendExamples},
-                                  [&program, options] { return run_send(program, *options); });
+  CLI::App& command =
+      add_command(pacs, program, kPacsSend, [&program, options] { return run_send(program, *options); });
   add_server_choice(command, options->choice);
   command.add_option("PATH", options->paths, "DICOM files, or folders of them")->required()->type_name("...");
   command.add_flag("--deidentify", options->deidentify,

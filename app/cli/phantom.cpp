@@ -11,16 +11,14 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Writes a synthetic study with its ground truth";
-constexpr const char* kDescription =
+constexpr CommandHelp kPhantom{
+    "phantom", "Writes a synthetic study with its ground truth",
     "Writes a synthetic study: DIR/series (DICOM), DIR/truth.nii.gz (the mask that is right) and\n"
     "DIR/phantom.json (target, range, alpha and a start that suit it: seed i,j,k in voxels with radius in "
     "mm,\n"
-    "or init_threshold low,high). The same numbers give the same voxels on every machine.";
-
-constexpr const char* kExamples =
+    "or init_threshold low,high). The same numbers give the same voxels on every machine.",
     "  tidemark-cli phantom head --out head\n"
-    "  tidemark-cli phantom bridge --out noisy --noise 15 --random-seed 7\n";
+    "  tidemark-cli phantom bridge --out noisy --noise 15 --random-seed 7\n"};
 
 struct PhantomArguments {
   std::string kind;
@@ -113,8 +111,8 @@ Status run(Program& program, const PhantomArguments& arguments) {
 
 void add_phantom(CLI::App& app, Program& program) {
   auto arguments = std::make_shared<PhantomArguments>();
-  CLI::App& command = add_command(app, program, {"phantom", kSummary, kDescription, kExamples},
-                                  [&program, arguments] { return run(program, *arguments); });
+  CLI::App& command =
+      add_command(app, program, kPhantom, [&program, arguments] { return run(program, *arguments); });
   command.add_option("KIND", arguments->kind, "One of " + kinds())->required()->type_name("");
   command.add_option("--out", arguments->out, "The folder to write to; made when it is not there")
       ->required()

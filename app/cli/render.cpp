@@ -12,8 +12,8 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Draws a picture of a study and its surface";
-constexpr const char* kDescription =
+constexpr CommandHelp kRender{
+    "render", "Draws a picture of a study and its surface",
     "Draws INPUT, with the surface of a mask or of a saved phi, into a PNG file.\n\n"
     "  3d        the surface and, with --preset or --tf, the source as a volume rendering\n"
     "  axial, coronal, sagittal   a slice with the surface's outline\n"
@@ -24,13 +24,12 @@ constexpr const char* kDescription =
     "  sheet     three slices, the speed map (with --target and --range, or --speed) and the 3D view on one "
     "sheet\n\n"
     "Positions are voxel indices; normals and planes are in patient coordinates (LPS, mm): what lies where\n"
-    "N . x > D of --clip is hidden.";
-constexpr const char* kExamples =
+    "N . x > D of --clip is hidden.",
     "  tidemark-cli render head.nii.gz --mask brain.nii.gz --out brain.png\n"
     "  tidemark-cli render study/ --preset ct-bone --camera 30,20 --size 800x800 --out bone.png\n"
     "  tidemark-cli render study/ --phi phi.nii.gz --view axial --at 0,0,40 --out slice.png\n"
     "  tidemark-cli render study/ --mask liver.nii.gz --preset ct-angio --roi inside --out vessels.png\n"
-    "  tidemark-cli render study/ --mask liver.nii.gz --view sheet --size 1200x800 --out sheet.png\n";
+    "  tidemark-cli render study/ --mask liver.nii.gz --view sheet --size 1200x800 --out sheet.png\n"};
 
 bool is_even(const renderer::Picture& picture) {
   const auto& pixels = picture.pixels;
@@ -67,8 +66,8 @@ Status run(Program& program, const RenderOptions& options) {
 
 void add_render(CLI::App& app, Program& program) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App& command = add_command(app, program, {"render", kSummary, kDescription, kExamples},
-                                  [&program, options] { return run(program, *options); });
+  CLI::App& command =
+      add_command(app, program, kRender, [&program, options] { return run(program, *options); });
   add_render_options(command, *options);
   command.add_option("--out", options->out, "Picture, .png")->required();
 }

@@ -12,16 +12,15 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Does again what a recipe says and writes mask, surface and figures";
-constexpr const char* kDescription =
+constexpr CommandHelp kReplay{
+    "replay", "Does again what a recipe says and writes mask, surface and figures",
     "Replays RECIPE, which segment --recipe and the desktop write, on INPUT: the same start, parameters and\n"
     "edits at the same steps. On the same volume with the same executor it gives the same voxels. Radii and\n"
     "patient coordinates of the recipe are in mm; another spacing is warned about. --tilt and --gaps are "
     "the\n"
-    "recipe's where they are not given.";
-constexpr const char* kExamples =
+    "recipe's where they are not given.",
     "  tidemark-cli replay liver.json ct.nrrd --out liver.nii.gz --stats liver-stats.json\n"
-    "  tidemark-cli replay liver.json other/ --executor host --out other.stl\n";
+    "  tidemark-cli replay liver.json other/ --executor host --out other.stl\n"};
 
 struct ReplayArguments {
   std::string recipe;
@@ -99,8 +98,8 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
 
 void add_replay(CLI::App& app, Program& program) {
   auto arguments = std::make_shared<ReplayArguments>();
-  CLI::App& command = add_command(app, program, {"replay", kSummary, kDescription, kExamples},
-                                  [&program, arguments] { return run_replay(program, *arguments); });
+  CLI::App& command =
+      add_command(app, program, kReplay, [&program, arguments] { return run_replay(program, *arguments); });
   command.add_option("RECIPE", arguments->recipe, "A recipe (.json)")->required()->type_name("");
   add_study_input(command, arguments->study);
   add_solver_options(command, arguments->solver, "the recipe's");

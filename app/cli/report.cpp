@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "app/cli/arguments.h"
+
 namespace tidemark::cli {
 namespace {
-
-constexpr double kMebi = 1024.0 * 1024.0;
 
 double per_second(std::int64_t count, double seconds) {
   return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
@@ -212,7 +212,8 @@ void say(Console& console, const RunFigures& figures) {
   console.say("Volume     {:.3f} ml, {} voxels", figures.surface.volume_ml, figures.surface.voxels_inside);
   console.say("Surface    {:.1f} mm^2", figures.surface.surface_mm2);
   console.say("Pages      {} (at most {}), {:.1f} MB of solver state", figures.memory.resident_pages,
-              figures.memory.peak_resident_pages, static_cast<double>(figures.memory.state_bytes) / kMebi);
+              figures.memory.peak_resident_pages,
+              static_cast<double>(figures.memory.state_bytes) / kMebibyte);
   if (figures.dice) console.say("Dice       {:.4f} against the truth", *figures.dice);
   if (const auto& distance = figures.truth_distance) {
     console.say("Distance   {:.2f} mm to the truth on average, 95 % within {:.2f} mm, all within {:.2f} mm",

@@ -11,13 +11,11 @@ namespace tidemark::cli {
 namespace {
 
 constexpr double kTruthBand = 2.0;  // nothing but where the surface lies is taken from it
-constexpr const char* kSummary = "Grows a surface from a start and writes mask, surface and figures";
-constexpr const char* kDescription =
+constexpr CommandHelp kSegment{
+    "segment", "Grows a surface from a start and writes mask, surface and figures",
     "Segments INPUT: a surface starts at seeds or a mask, grows where brightness is within target -+ range\n"
     "(the volume's units, HU for CT), and is smoothed by its curvature. Voxel indices I,J,K are 0-based;\n"
-    "radii, patient coordinates X,Y,Z (LPS) and smoothing are in mm. An interrupted run writes nothing.";
-
-constexpr const char* kExamples =
+    "radii, patient coordinates X,Y,Z (LPS) and smoothing are in mm. An interrupted run writes nothing.",
     "  tidemark-cli segment brain/ --target 800 --range 120 --alpha 0.6 --seed 90,110,80,5 --out "
     "mask.nii.gz\n"
     "  tidemark-cli segment ct.nrrd --target 100 --range 40 --alpha 0.5 --seed-mm=-60,20,110,8 --smooth 1.5 "
@@ -31,7 +29,7 @@ constexpr const char* kExamples =
     "  tidemark-cli segment ct/ --target 100 --range 40 --alpha 0.5 --seed-mm=-60,20,110,8 --out seg.dcm "
     "\\\n"
     "      --rtstruct contours.dcm --label Liver,liver\n"
-    "  tidemark-cli segment unknown/ --auto-start --out first-look.stl\n";
+    "  tidemark-cli segment unknown/ --auto-start --out first-look.stl\n"};
 
 // One run of the command.
 class Segmentation {
@@ -120,7 +118,7 @@ void Segmentation::say_warnings() {
 
 void add_segment(CLI::App& app, Program& program) {
   auto options = std::make_shared<SegmentOptions>();
-  CLI::App& command = add_command(app, program, {"segment", kSummary, kDescription, kExamples},
+  CLI::App& command = add_command(app, program, kSegment,
                                   [&program, options] { return Segmentation(program, *options).run(); });
   add_segment_options(command, *options);
 }

@@ -7,7 +7,6 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr std::int64_t kMebibyte = std::int64_t{1} << 20;
 constexpr std::int64_t kMostThreads = 1024;
 constexpr std::int64_t kLargestBudget = std::int64_t{1} << 30;  // MB, so that bytes fit 64 bits
 

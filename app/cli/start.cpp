@@ -11,7 +11,7 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kGroup = "Start (at least one)";
+constexpr const char* kStartGroup = "Start (at least one)";
 
 Index3 flood_seed(const std::vector<double>& flood) {
   return {std::llround(flood[0]), std::llround(flood[1]), std::llround(flood[2])};
@@ -57,31 +57,31 @@ Status check_order(const std::string& option, double low, double high) {
 void add_start_options(CLI::App& app, StartOptions& options) {
   add_spheres(app, "--seed", SphereUnits::voxels, options.seeds,
               "A ball around voxel I,J,K with radius R in mm; may be repeated")
-      ->group(kGroup);
+      ->group(kStartGroup);
   add_spheres(app, "--seed-mm", SphereUnits::millimetres, options.seeds,
               "A ball around a point in patient coordinates (LPS), all in mm; may be repeated")
-      ->group(kGroup);
+      ->group(kStartGroup);
   app.add_option("--init", options.mask,
                  "A mask on the same grid: every voxel that is not 0;\na DICOM segmentation or RT structure "
                  "set (.dcm): all "
                  "its segments")
       ->type_name("MASK")
-      ->group(kGroup);
+      ->group(kStartGroup);
   add_numbers(app, "--init-threshold", "LO,HI", options.threshold,
               "All voxels with values from LO to HI, in the volume's units (after --smooth)")
-      ->group(kGroup);
+      ->group(kStartGroup);
   add_numbers(app, "--init-flood", "I,J,K,LO,HI", options.flood,
               "Voxels with values from LO to HI that are connected to voxel I,J,K")
-      ->group(kGroup);
+      ->group(kStartGroup);
   app.add_option("--init-phi", options.phi, "A level set saved with --out-phi, to go on with")
       ->type_name("FILE")
-      ->group(kGroup);
+      ->group(kStartGroup);
   add_spheres(app, "--erase", SphereUnits::voxels, options.erasers,
               "Takes a ball away from the start: voxel I,J,K, radius R in mm; may be repeated")
-      ->group(kGroup);
+      ->group(kStartGroup);
   add_spheres(app, "--erase-mm", SphereUnits::millimetres, options.erasers,
               "The same in patient coordinates (LPS, mm)")
-      ->group(kGroup);
+      ->group(kStartGroup);
 }
 
 void add_levels_option(CLI::App& app, StartOptions& options) {
@@ -91,7 +91,7 @@ void add_levels_option(CLI::App& app, StartOptions& options) {
   add_choice(app, "--levels", options.levels, words,
              "Coarse to fine: come to rest on a quarter and a half of the resolution first (3), on half\n"
              "(2), on as many levels as suit the volume (auto), or not (1, the default)")
-      ->group(kGroup);
+      ->group(kStartGroup);
 }
 
 Status check(const StartOptions& options) {

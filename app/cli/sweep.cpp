@@ -13,21 +13,20 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr const char* kSummary = "Runs a segmentation over values of one or two parameters";
-constexpr const char* kDescription =
+constexpr CommandHelp kSweep{
+    "sweep", "Runs a segmentation over values of one or two parameters",
     "Segments INPUT as segment does, once for each combination of the values of one or two parameters, "
     "several\n"
     "at once. Writes DIR/sweep.csv, a line a run with volume, outcome and Dice, and DIR/sweep.png: a slice "
     "of\n"
     "every run in a matrix, and the share of runs that have a voxel inside. The same options with one\n"
-    "combination give the same voxels with segment --executor host. An interrupted run writes nothing.";
-constexpr const char* kExamples =
+    "combination give the same voxels with segment --executor host. An interrupted run writes nothing.",
     "  tidemark-cli sweep brain/ --target 800 --seed 90,110,80,5 --over alpha=0.2:0.9:6 --over "
     "range=30:120:6 "
     "\\\n"
     "      --out brain-sweep\n"
     "  tidemark-cli sweep ct.nrrd --target 100 --range 40 --seed-mm=-60,20,110,8 --over alpha=0.1:0.8:8 \\\n"
-    "      --truth liver.nii.gz --out alphas\n";
+    "      --truth liver.nii.gz --out alphas\n"};
 
 struct SweepArguments {
   SegmentOptions segment;
@@ -188,7 +187,7 @@ void SweepCommand::say(const document::Sweep& sweep, double seconds) {
   }
   console_.say("Wrote      {}", table_.string());
   console_.say("Wrote      {}", picture_.string());
-  Json object = to_json(sweep);
+  Json object = sweep_json(sweep);
   object["seconds"] = seconds;
   object["table"] = table_.string();
   object["picture"] = picture_.string();
@@ -199,7 +198,7 @@ void SweepCommand::say(const document::Sweep& sweep, double seconds) {
 
 void add_sweep(CLI::App& app, Program& program) {
   auto arguments = std::make_shared<SweepArguments>();
-  CLI::App& command = add_command(app, program, {"sweep", kSummary, kDescription, kExamples},
+  CLI::App& command = add_command(app, program, kSweep,
                                   [&program, arguments] { return SweepCommand(program, *arguments).run(); });
   add_sweep_options(command, arguments->segment);
   command

@@ -34,7 +34,7 @@ std::string sweep_table(const document::Sweep& sweep) {
   return text;
 }
 
-Json to_json(const document::Sweep& sweep) {
+Json sweep_json(const document::Sweep& sweep) {
   Json object;
   for (const document::SweepAxis& axis : sweep.axes) {
     Json values = Json::array();

@@ -14,7 +14,7 @@ namespace tidemark::cli {
 [[nodiscard]] std::string sweep_table(const document::Sweep& sweep);
 
 // The same for programs: {"axes": [..], "runs": [..]}.
-[[nodiscard]] Json to_json(const document::Sweep& sweep);
+[[nodiscard]] Json sweep_json(const document::Sweep& sweep);
 
 // One slice of every run in a matrix, with volume and Dice as numbers and colours, and the agreement of all
 // runs below. `source` is the volume as the runs saw it.

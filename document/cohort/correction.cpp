@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kStaleAfter_s = 300.0;  // as of runs
+constexpr double kCaseIsStaleAfter_s = 300.0;  // as of runs
 
 Status check(const WorkRow& row, const CaseResult& result) {
   if (result.surface.voxels_inside == 0)
@@ -66,7 +66,7 @@ Result<CaseStatus> correct_case(const CohortFolder& folder, const CohortPlan& pl
                                 const std::optional<CaseStatus>& seen, const CaseResult& result,
                                 const std::string& program, const Progress& progress) {
   TIDEMARK_TRY(check(row, result));
-  auto lease = Lease::take(folder.leases(), row.id, kStaleAfter_s);
+  auto lease = Lease::take(folder.leases(), row.id, kCaseIsStaleAfter_s);
   if (!lease) return pass_on(lease);
   if (!*lease) return fail(ErrorKind::usage, "{}: is computed by a run now", row.id);
   auto before = present_status(folder, row.id);

@@ -15,7 +15,7 @@ namespace {
 
 // No case has such an id: a safe one does not begin so.
 constexpr const char* kLease = "_decisions";
-constexpr double kStaleAfter_s = 10.0;  // a turn takes some milliseconds
+constexpr double kTurnIsStaleAfter_s = 10.0;  // a turn takes some milliseconds
 constexpr auto kLongestWait = std::chrono::seconds(30);
 constexpr auto kBetweenTries = std::chrono::milliseconds(20);
 
@@ -30,7 +30,7 @@ std::string to_text(const std::vector<Decision>& decisions) {
 Result<Lease> take_turn(const CohortFolder& folder) {
   const auto until = std::chrono::steady_clock::now() + kLongestWait;
   for (;;) {
-    auto lease = Lease::take(folder.leases(), kLease, kStaleAfter_s);
+    auto lease = Lease::take(folder.leases(), kLease, kTurnIsStaleAfter_s);
     if (!lease) return pass_on(lease);
     if (*lease) return std::move(**lease);
     if (std::chrono::steady_clock::now() > until)

@@ -147,14 +147,14 @@ bool is_free(const fs::path& file, double now, double stale_after_s) {
   return now - seconds_of(state.st_mtim) > stale_after_s || holder_has_ended(file);
 }
 
-bool is_there(const fs::path& file) {
+bool file_is_there(const fs::path& file) {
   return ::access(file.c_str(), F_OK) == 0;
 }
 
 // The number that the next holder would have; 0: the case is held.
 int next_number(const fs::path& folder, const std::string& id, double now, double stale_after_s) {
   int number = 0;
-  while (number < kMostFollowers && is_there(lease_file(folder, id, number + 1))) ++number;
+  while (number < kMostFollowers && file_is_there(lease_file(folder, id, number + 1))) ++number;
   if (number == 0) return 1;
   return is_free(lease_file(folder, id, number), now, stale_after_s) ? number + 1 : 0;
 }
@@ -202,8 +202,8 @@ Lease::~Lease() {
 }
 
 bool Lease::held() const {
-  return number_ != 0 && is_there(lease_file(folder_, id_, number_)) &&
-         !is_there(lease_file(folder_, id_, number_ + 1));
+  return number_ != 0 && file_is_there(lease_file(folder_, id_, number_)) &&
+         !file_is_there(lease_file(folder_, id_, number_ + 1));
 }
 
 void Lease::refresh() const {
