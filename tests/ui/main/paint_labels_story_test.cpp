@@ -3,6 +3,7 @@
 #include <QMenu>
 #include <QTableView>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "imaging/files/volume_file.h"
@@ -19,6 +20,7 @@ class PaintLabelsStoryTest : public QObject {
 
  private slots:
   void the_brush_paints_the_chosen_label_and_no_other();
+  void the_brush_paints_a_ball_on_the_clip_plane();
   void an_outline_takes_what_it_goes_around();
   void a_polygon_is_drawn_by_clicks();
   void a_livewire_follows_the_edge_between_clicks();
@@ -410,6 +412,51 @@ void PaintLabelsStoryTest::the_place_under_a_resting_mouse_follows_the_slice() {
   QVERIFY(place.has_value());
   QCOMPARE(std::abs(place->z - before.z), desktop.proxy().volume().geometry.spacing_mm.z);
   QCOMPARE(place->x, before.x);
+}
+
+void PaintLabelsStoryTest::the_brush_paints_a_ball_on_the_clip_plane() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(4.0);
+  auto* view = desktop.view<ui::VolumeViewWidget>();
+  const glm::dvec3 centre = desktop.seed_mm();
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 1.0, 0.2));
+  const glm::dvec3 place = centre + 12.0 * glm::normalize(glm::cross(normal, {0.3, 0.1, 1.0}));
+  desktop.proxy().display().change([&](engine::DisplaySettings& s) {
+    s.camera.zoom = 3.0;
+    s.camera.focus_mm = centre;
+    s.clip.normal = normal;
+    s.clip.offset_mm = glm::dot(normal, centre);
+  });
+  desktop.press(Qt::Key_X);
+  desktop.press(Qt::Key_Q);
+  desktop.wait_until_idle();
+  Desktop::drag(*view, {place});
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  // On both sides of the plane, around the place.
+  const double radius = desktop.proxy().display().settings().brush_mm;
+  const Geometry& grid = desktop.proxy().volume().geometry;
+  const Region painted = region(desktop, 1);
+  const auto reach = static_cast<std::int64_t>(std::ceil(radius)) + 3;
+  const Index3 middle(glm::round(grid.to_voxel(place)));
+  std::int64_t near = 0;
+  for (std::int64_t k = -reach; k <= reach; ++k) {
+    for (std::int64_t j = -reach; j <= reach; ++j) {
+      for (std::int64_t i = -reach; i <= reach; ++i) {
+        const Index3 voxel = middle + Index3(i, j, k);
+        const double away = glm::distance(grid.to_patient(glm::dvec3(voxel)), place);
+        if (away < radius - 1.5) QVERIFY(painted.contains(voxel));
+        if (away < radius + 1.5) near += painted.contains(voxel) ? 1 : 0;
+      }
+    }
+  }
+  QVERIFY(near > 20);
+  QCOMPARE(painted.count(), near);  // and nowhere else
+  desktop.screenshot("brush-3-clip-plane");
+  Desktop::drag(*view, {place}, Qt::RightButton);
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1).empty());
 }
 
 TIDEMARK_TEST(PaintLabelsStoryTest)
