@@ -85,7 +85,6 @@ bool LabelFinisher::is_of_now(const LabelPreview& preview) const {
 
 void LabelFinisher::clear() {
   give_up();
-  asked_ = nullptr;
   if (std::exchange(preview_, nullptr) != nullptr) emit changed();
 }
 
