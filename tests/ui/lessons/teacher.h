@@ -3,13 +3,13 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QRadioButton>
 #include <QTest>
 #include <filesystem>
 
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/in_sight.h"
 #include "ui/widgets/number_box.h"
 
@@ -71,9 +71,7 @@ inline bool name_file(QWidget& editor, const std::filesystem::path& file) {
   QFileDialog* dialog = nullptr;
   if (!QTest::qWaitFor([&] { return (dialog = editor.findChild<QFileDialog*>()) && dialog->isVisible(); }))
     return false;
-  auto* name = dialog->findChild<QLineEdit*>();
-  name->setText(QString::fromStdString(file.string()));
-  QTest::keyClick(name, Qt::Key_Return);
+  name_file(*dialog, QString::fromStdString(file.string()));
   return true;
 }
 

@@ -1,9 +1,7 @@
 // A cohort in the desktop: a person goes through its cases, accepts, rejects, corrects and comments.
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QLineEdit>
 #include <QListView>
-#include <QTimer>
 #include <fstream>
 
 #include "document/cohort/case_run.h"
@@ -15,6 +13,7 @@
 #include "imaging/phantom/phantom.h"
 #include "imaging/results/results.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/story_language.h"
 #include "tests/ui/main/student.h"
@@ -117,7 +116,7 @@ class CohortStoryTest : public QObject {
 
 // By the menu and its dialog.
 bool CohortStoryTest::open(Desktop& desktop) const {
-  Student::name_file(balls_->folder().path());
+  name_file_when_asked(QString::fromStdString(balls_->folder().path().string()));
   desktop.window().actions().open_cohort->trigger();
   return Desktop::wait_for([&] { return panel(desktop) && panel(desktop)->isVisible(); });
 }

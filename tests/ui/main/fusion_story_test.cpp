@@ -5,6 +5,7 @@
 #include <QToolButton>
 
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/value_bar.h"
 #include "ui/panels/registration_dialog.h"
@@ -38,8 +39,7 @@ class FusionStoryTest : public QObject {
     desktop.window().actions().add_image->trigger();
     auto* dialog = desktop.window().findChild<QFileDialog*>();
     QVERIFY(dialog);
-    dialog->selectFile(file("PET_image.nii.gz"));
-    static_cast<QDialog*>(dialog)->accept();
+    name_file(*dialog, file("PET_image.nii.gz"));
     QVERIFY(Desktop::wait_for([&] { return images.size() == 1; }, kPatience));
     desktop.wait_until_idle();
     QVERIFY(difference(ct, axial->grab_picture()) > 0.05);

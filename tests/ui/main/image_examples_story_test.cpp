@@ -14,6 +14,7 @@
 #include "imaging/files/volume_file.h"
 #include "imaging/load_study.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/look/theme.h"
 #include "ui/main/message_bar.h"
@@ -96,8 +97,7 @@ void ImageExamplesStoryTest::add_image(const QString& file) {
   desktop_->window().actions().add_image->trigger();
   auto* dialog = desktop_->window().findChild<QFileDialog*>();
   QVERIFY(dialog);
-  dialog->selectFile(file);
-  static_cast<QDialog*>(dialog)->accept();
+  name_file(*dialog, file);
 }
 
 bool ImageExamplesStoryTest::is_told(const QString& text) const {

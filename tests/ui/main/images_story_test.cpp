@@ -8,6 +8,7 @@
 
 #include "imaging/files/volume_file.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/value_bar.h"
 #include "ui/widgets/number_box.h"
@@ -55,8 +56,7 @@ class ImagesStoryTest : public QObject {
     desktop_->window().actions().add_image->trigger();
     auto* dialog = desktop_->window().findChild<QFileDialog*>();
     QVERIFY(dialog);
-    dialog->selectFile(file);
-    static_cast<QDialog*>(dialog)->accept();
+    name_file(*dialog, file);
   }
   void add_image(const QString& file) {
     const std::size_t before = images().size();

@@ -11,6 +11,7 @@
 #include "engine/case_autosave.h"
 #include "tests/support/ball_lesson.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/student.h"
 #include "ui/main/session_reader.h"
 
@@ -21,7 +22,7 @@ constexpr const char* kLessonFile = "TIDEMARK_TEST_LESSON";
 constexpr const char* kWords = "Curvature wins, I think.";
 
 void open_lesson(Desktop& desktop, Student& student) {
-  Student::name_file(qgetenv(kLessonFile).toStdString());
+  name_file_when_asked(qEnvironmentVariable(kLessonFile));
   desktop.choose("Teach", desktop.menu_entry("Teach", "Open lesson"));
   QVERIFY(Desktop::wait_for([&] { return student.panel() && student.panel()->isVisible(); }));
 }

@@ -12,6 +12,7 @@
 #include <map>
 
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/lessons/teacher.h"
 #include "tests/ui/main/results_desktop.h"
 #include "tests/ui/main/student.h"
@@ -92,7 +93,7 @@ void LessonWritingStoryTest::a_lesson_is_written_opened_and_done() {
   if (QTest::currentTestFailed()) return;
 
   Student student(desktop);
-  Student::name_file(folder / "mine.json");
+  name_file_when_asked(QString::fromStdString((folder / "mine.json").string()));
   desktop.choose("Teach", desktop.menu_entry("Teach", "Open lesson"));
   QVERIFY(Desktop::wait_for([&] { return student.panel() != nullptr; }));
   QVERIFY(student.reads("A bright ball of 20 mm in the dark."));

@@ -7,6 +7,7 @@
 #include "core/atomic_file.h"
 #include "tests/imaging/ai/model_server.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/results_desktop.h"
 #include "ui/main/panel_docks.h"
 #include "ui/panels/initialise_panel.h"
@@ -188,8 +189,7 @@ class ModelServerStoryTest : public QObject {
     click("As speed…");
     auto* dialog = controls().findChild<QFileDialog*>();
     QVERIFY(dialog);
-    dialog->selectFile(QString::fromStdString((folder_ / "map.nii.gz").string()));
-    static_cast<QDialog*>(dialog)->accept();
+    name_file(*dialog, QString::fromStdString((folder_ / "map.nii.gz").string()));
     QVERIFY(Desktop::wait_for([&] { return balls_->proxy().drive().map != nullptr; }, kPatience));
     QVERIFY(balls_->proxy().drive().setting.terms.front().function == "image");
     QVERIFY(std::filesystem::exists(balls_->proxy().drive().map->path));  // sessions find it there

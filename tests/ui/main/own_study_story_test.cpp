@@ -1,14 +1,13 @@
 // The handbook's first page on a study of one's own (handbook/first-page.md), with a phantom that lies in a
 // folder as a scanner's series would. With TIDEMARK_SCREENSHOTS it leaves the pictures of the page.
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLineEdit>
-#include <QTimer>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "imaging/phantom/phantom.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/story_language.h"
 #include "tests/ui/main/student.h"
@@ -65,7 +64,7 @@ void OwnStudyStoryTest::a_folder_leads_to_an_stl_file() {
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
 
   const auto file = folder / "organ.stl";
-  Student::name_file(file);
+  name_file_when_asked(QString::fromStdString(file.string()));
   desktop.window().actions().export_mesh->trigger();
   QVERIFY(Desktop::wait_for([&] { return QFileInfo(QString::fromStdString(file.string())).size() > 1000; },
                             60000));

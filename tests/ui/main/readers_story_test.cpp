@@ -1,11 +1,9 @@
 // Several readers' segmentations are compared each with each, and the estimate of the truth is kept.
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
-#include <QTimer>
 #include <array>
 #include <fstream>
 
@@ -15,6 +13,7 @@
 #include "imaging/regions/staple.h"
 #include "imaging/results/results.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/results_desktop.h"
 #include "ui/readers/reader_list.h"
 #include "ui/readers/reader_table.h"
@@ -344,15 +343,7 @@ void ReadersStoryTest::the_table_goes_out_with_points_where_the_language_has_com
   compare(dialog);
   QCOMPARE(pairs(dialog).item(0, kLargest)->text(), QString("6,00"));
   const QString file = path("readers.csv");
-  auto* timer = new QTimer(qApp);
-  connect(timer, &QTimer::timeout, timer, [timer, file] {
-    auto* choice = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-    if (!choice) return;
-    timer->deleteLater();
-    choice->selectFile(file);
-    static_cast<QDialog*>(choice)->accept();
-  });
-  timer->start(20);
+  name_file_when_asked(file);
   QTest::mouseClick(button(dialog, "Export CSV…"), Qt::LeftButton);
   QVERIFY(Desktop::wait_for([&] { return QFile::exists(file); }, kPatience));
   const auto text = read_text_file(folder_ / "readers.csv", 1 << 20);

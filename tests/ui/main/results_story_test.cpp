@@ -10,6 +10,7 @@
 #include "tests/imaging/pacs/archives.h"
 #include "tests/imaging/pacs/scripted_peer.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/results_desktop.h"
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
@@ -119,8 +120,7 @@ void ResultsStoryTest::import_by_the_menu(const QString& file) {
   desktop_->window().actions().import_labels->trigger();
   auto* dialog = desktop_->window().findChild<QFileDialog*>();
   QVERIFY(dialog);
-  dialog->selectFile(file);
-  static_cast<QDialog*>(dialog)->accept();
+  name_file(*dialog, file);
   QVERIFY(Desktop::wait_for([&] { return desktop_->state().labels.size() > before; }, kPatience));
   desktop_->wait_until_idle();
 }

@@ -1,11 +1,10 @@
 #include "tests/ui/main/student.h"
+#include "tests/ui/file_dialog.h"
 
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QRadioButton>
-#include <QTimer>
 
 #include "tests/ui/in_sight.h"
 #include "tests/ui/main/story_language.h"
@@ -111,23 +110,10 @@ void Student::sign(const QString& name) {
   QTest::keyClicks(line, name);
 }
 
-void Student::name_file(const std::filesystem::path& file) {
-  auto* timer = new QTimer(qApp);
-  QObject::connect(timer, &QTimer::timeout, timer, [timer, file] {
-    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-    if (!dialog) return;
-    timer->deleteLater();
-    auto* name = dialog->findChild<QLineEdit*>("fileNameEdit");
-    name->setText(QString::fromStdString(file.string()));  // typed, it would open a list of names
-    QTest::keyClick(name, Qt::Key_Return);
-  });
-  timer->start(20);
-}
-
 void Student::hand_in(const QString& save, const std::filesystem::path& file) {
   QVERIFY(button(save));
   QVERIFY(Desktop::wait_for([&] { return button(save)->isEnabled(); }));
-  name_file(file);
+  name_file_when_asked(QString::fromStdString(file.string()));
   click(*button(save));
   const QString wrote = QStringLiteral("Wrote ") + QString::fromStdString(file.string());
   QVERIFY(Desktop::wait_for([&] { return sees(wrote); }, kLessonPatience));

@@ -42,8 +42,6 @@ class Student {
   // Scrolls there first.
   static void click(QWidget& widget, QPoint at);
   static void click(QWidget& widget) { click(widget, widget.rect().center()); }
-  // Enters a name in the next dialog of files, and presses Return.
-  static void name_file(const std::filesystem::path& file);
 
  private:
   Desktop& desktop_;

@@ -9,6 +9,7 @@
 #include "imaging/results/results.h"
 #include "imaging/results/segments.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/results_desktop.h"
 #include "ui/main/message_bar.h"
 #include "ui/panels/evolution_figures.h"
@@ -66,8 +67,7 @@ void TruthStoryTest::choose_file(const QString& file) {
   desktop_->choose("File", desktop_->menu_entry("File", "Compare with a mask"));
   auto* dialog = desktop_->window().findChild<QFileDialog*>();
   QVERIFY(dialog);
-  dialog->selectFile(file);
-  static_cast<QDialog*>(dialog)->accept();
+  name_file(*dialog, file);
 }
 
 // The value beside that name.

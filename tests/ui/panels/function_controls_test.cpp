@@ -8,6 +8,7 @@
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/panels/panel_case.h"
 #include "ui/panels/joint_plot.h"
 #include "ui/panels/level_set_panel.h"
@@ -151,8 +152,7 @@ class FunctionControlsTest : public QObject {
     QTest::mouseClick(button<QPushButton>(*panel_, tr("Choose a map…")), Qt::LeftButton);
     auto* dialog = panel_->findChild<QFileDialog*>();
     QVERIFY(dialog);
-    dialog->selectFile(QString::fromStdString(file.string()));
-    static_cast<QDialog*>(dialog)->accept();
+    name_file(*dialog, QString::fromStdString(file.string()));
     QTRY_VERIFY(!panel_->findChild<QFileDialog*>());
   }
   [[nodiscard]] bool says(const QString& text) const {
