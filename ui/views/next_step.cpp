@@ -114,8 +114,8 @@ void NextStep::follow() {
 
 void NextStep::move_into_view() {
   adjustSize();
-  // Play leaves the surface in the middle to be seen.
-  const double height = play_->isHidden() ? 0.5 : 0.75;
+  // A surface or labels are seen in the middle.
+  const double height = play_->isHidden() && !proxy_.state().label_voxels ? 0.5 : 0.75;
   QRect place(QPoint(), size());
   place.moveCenter({view_.width() / 2, static_cast<int>(height * view_.height())});
   setGeometry(place);

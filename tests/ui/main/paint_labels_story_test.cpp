@@ -11,6 +11,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/labels_desktop.h"
+#include "ui/views/next_step.h"
 #include "ui/widgets/number_box.h"
 
 namespace tidemark::test::paint_labels_story_test {
@@ -304,6 +305,10 @@ void PaintLabelsStoryTest::only_voxels_with_certain_values_are_painted() {
   QCOMPARE(seen<ui::NumberBox>(panel, "From")->value(), low);
   QCOMPARE(seen<ui::NumberBox>(panel, "Up to")->value(), high);
   square();
+  // The card that says how to begin a surface leaves the labels in 3D to be seen.
+  const auto* solid = desktop.view<ui::VolumeViewWidget>();
+  const auto* card = desktop.window().findChild<ui::NextStep*>();
+  QVERIFY(card->isVisible() && !card->geometry().contains(solid->rect().center()));
   desktop.screenshot("values-0-within");
   const std::int64_t most = region(desktop, 1).count();
   QVERIFY(most > 500);
