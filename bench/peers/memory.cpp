@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 
+#include "bench/peak_memory.h"
 #include "bench/peers/measurements.h"
 
 namespace tidemark::bench {
@@ -11,15 +11,6 @@ namespace {
 // Steps that a contestant computes before its peak is read: a seed grows to its full size.
 std::int64_t steps_of(const Problem& problem) {
   return problem.seed ? 400 : 20;
-}
-
-// A field of /proc/self/status in bytes, or 0.
-std::int64_t process_bytes(std::string_view field) {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with(field)) return 1024 * std::stoll(line.substr(field.size() + 1));
-  }
-  return 0;
 }
 
 Result<double> peak_of(const Problem& problem, const Settings& settings, const std::string& contestant) {
@@ -39,14 +30,11 @@ Result<double> peak_of(const Problem& problem, const Settings& settings, const s
 Status print_memory_of(const Problem& problem, const std::string& contestant) {
   for (const ContestantKind& kind : all_contestants()) {
     if (kind.name != contestant) continue;
-    // Forgets the peak of making the phantom (Linux, proc(5)).
-    std::ofstream("/proc/self/clear_refs") << "5\n";
-    const std::int64_t before = process_bytes("VmRSS:");
+    const PeakMemory memory;
     auto made = kind.make(problem);
     if (!made) return pass_on(made);
     TIDEMARK_TRY((*made)->advance(steps_of(problem)));
-    const std::int64_t peak = process_bytes("VmHWM:");
-    fmt::print("{}\n", peak - before);
+    fmt::print("{}\n", memory.bytes());
     return {};
   }
   return fail(ErrorKind::usage, "no contestant is called {}", contestant);

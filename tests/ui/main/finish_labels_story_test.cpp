@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QMdiArea>
 #include <QMdiSubWindow>
+#include <QSignalSpy>
 #include <QTableView>
 
 #include "engine/label_finisher.h"
@@ -113,6 +114,20 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   }));
   QVERIFY(!seen<QAbstractButton>(panel, "Apply to labels")->isEnabled());
   desktop.screenshot("finish-3-refused");
+  // It is not tried again with each step of the surface, but where labels have changed.
+  const QSignalSpy refusals(&desktop.proxy().label_finisher(), &engine::JobRunner::failed);
+  const std::int64_t steps = desktop.state().step;
+  for (int i = 0; i < 3; ++i) {
+    desktop.press(Qt::Key_Period);
+    desktop.wait_until_idle();
+    QTest::qWait(500);
+  }
+  QVERIFY(desktop.state().step > steps);
+  QCOMPARE(refusals.size(), 0);
+  document::Label renamed = desktop.state().labels.front();
+  renamed.name = "Organ";
+  desktop.proxy().set_label(renamed);
+  QVERIFY(Desktop::wait_for([&] { return refusals.size() == 1; }));
 }
 
 // Two discs that touch, as organs do that were taken for one.
