@@ -7,11 +7,10 @@
 
 namespace tidemark::ui {
 
-// Nothing where it is in no scroll area.
+// In each scroll area around it.
 inline void bring_into_sight(QWidget& part) {
   for (QWidget* above = part.parentWidget(); above; above = above->parentWidget()) {
-    if (auto* scroll = qobject_cast<QScrollArea*>(above))
-      return scroll->ensureWidgetVisible(&part, 0, kSpace);
+    if (auto* scroll = qobject_cast<QScrollArea*>(above)) scroll->ensureWidgetVisible(&part, 0, kSpace);
   }
 }
 

@@ -1,11 +1,9 @@
 // The editor of lessons, driven by mouse and keys as a teacher would.
 #include "ui/lessons/lesson_editor.h"
-#include "tests/ui/file_dialog.h"
 
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QListWidget>
 #include <QMessageBox>
 #include <QRadioButton>

@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "tests/ui/file_dialog.h"
-#include "tests/ui/in_sight.h"
+#include "ui/widgets/into_sight.h"
 #include "ui/widgets/number_box.h"
 
 namespace tidemark::test {
@@ -24,7 +24,7 @@ Widget* at_hand(QWidget& editor, const QString& name) {
     if (widget->accessibleName() != name && !(button && button->text() == name)) continue;
     if (!widget->isVisible()) continue;
     const bool can_be_clicked = QTest::qWaitFor([widget] {
-      bring_into_sight(*widget);
+      ui::bring_into_sight(*widget);
       return !widget->visibleRegion().isEmpty();
     });
     if (!can_be_clicked) qFatal("%s is out of sight", qPrintable(name));

@@ -1,7 +1,6 @@
 // The handbook's first page on a study of one's own (handbook/first-page.md), with a phantom that lies in a
 // folder as a scanner's series would. With TIDEMARK_SCREENSHOTS it leaves the pictures of the page.
 #include <QFileInfo>
-#include <QLineEdit>
 #include <cmath>
 #include <glm/geometric.hpp>
 

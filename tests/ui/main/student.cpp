@@ -1,14 +1,14 @@
 #include "tests/ui/main/student.h"
-#include "tests/ui/file_dialog.h"
 
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
 #include <QRadioButton>
 
-#include "tests/ui/in_sight.h"
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/main/story_language.h"
 #include "ui/lessons/hand_in_box.h"
+#include "ui/widgets/into_sight.h"
 
 namespace tidemark::test {
 
@@ -33,7 +33,7 @@ QPushButton* Student::button(const QString& text) const {
 
 void Student::click(QWidget& widget, QPoint at) {
   const bool in_sight = Desktop::wait_for([&] {
-    bring_into_sight(widget);
+    ui::bring_into_sight(widget);
     return widget.visibleRegion().contains(at);
   });
   QVERIFY2(in_sight, widget.metaObject()->className());
