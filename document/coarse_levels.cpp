@@ -91,7 +91,8 @@ Result<bool> CoarseLevels::begin(solver::Executor& executor, const solver::Coars
     coarse.from = MaskStart{std::make_shared<const Mask>(solver::coarsened(*inside_, grid)), {}};
     inside_.reset();
   }
-  const Volume volume{grid.coarse(), {}};
+  Volume volume;
+  volume.geometry = grid.coarse();
   auto phi = place(executor, volume, coarse, progress_);
   if (!phi) return pass_on(phi);
   return phi->has_inside();

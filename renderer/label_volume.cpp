@@ -117,8 +117,8 @@ VoxelRange LabelVolume::prepare_borders() {
       slices[static_cast<std::size_t>(k)] = shares_.change(k);
   }
   const auto fill = [&](std::int64_t page) {
-    const std::optional<Tile> tile =
-        pages_.is_mixed(page) ? std::optional<Tile>(std::in_place, layout_, voxels_, page) : std::nullopt;
+    std::optional<Tile> tile;
+    if (pages_.is_mixed(page)) tile.emplace(layout_, voxels_, page);
     const Index3 first = layout_.first_voxel(page);
     const Index3 shape = layout_.valid_shape(page);
     for (std::int64_t z = 0; z < shape.z; ++z) {

@@ -86,7 +86,7 @@ class Collector {
     for (WorkRow& row : rows_) {
       constexpr std::size_t kRoom = 80;  // for a number behind it
       std::string id = safe_id(row.id.size() > kRoom ? row.id.substr(row.id.size() - kRoom) : row.id);
-      while (count[id]++ > 0) id += "_" + std::to_string(count[id]);
+      while (count[id]++ > 0) id += fmt::format("_{}", count[id]);
       row.id = std::move(id);
       row.line = list.rows.size() + 2;
       list.rows.push_back(std::move(row));

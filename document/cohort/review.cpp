@@ -77,8 +77,10 @@ void set_unusual(Review& review) {
 
 std::string joined(const std::vector<CaseWarning>& warnings) {
   std::string text;
-  for (const CaseWarning warning : warnings)
-    text += (text.empty() ? "" : " ") + std::string(name_of(warning));
+  for (const CaseWarning warning : warnings) {
+    if (!text.empty()) text += ' ';
+    text += name_of(warning);
+  }
   return text;
 }
 

@@ -186,10 +186,8 @@ Voxel SliceMixer<Voxel>::smallest() const {
   return smallest.value_or(Voxel{});
 }
 
-}  // namespace
-
 template <class Voxel>
-bool resample_slices(const SliceResampling<Voxel>& work, std::vector<Voxel>& voxels) {
+bool resample(const SliceResampling<Voxel>& work, std::vector<Voxel>& voxels) {
   const auto count = static_cast<std::int64_t>(work.plan.slices.size());
   ThreadPool pool(
       static_cast<int>(std::clamp<std::int64_t>(count / kSlicesPerThread, 1, available_processors())));
@@ -209,6 +207,13 @@ bool resample_slices(const SliceResampling<Voxel>& work, std::vector<Voxel>& vox
     for (std::int64_t k = begin; k < end; ++k) mixer.fill_uncovered(k, background);
   });
   return true;
+}
+
+}  // namespace
+
+template <class Voxel>
+bool resample_slices(const SliceResampling<Voxel>& work, std::vector<Voxel>& voxels) {
+  return resample(work, voxels);
 }
 
 template bool resample_slices(const SliceResampling<std::int16_t>&, std::vector<std::int16_t>&);

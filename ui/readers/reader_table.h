@@ -14,7 +14,7 @@ class ReaderTable : public QTableWidget {
   struct Column {
     QString heading;
     QString tip;
-    std::optional<int> decimals;  // of a number; unset: names, which share the room that is left
+    std::optional<int> decimals = {};  // of a number; unset: names, which share the room that is left
   };
   // `name`: for those who do not see it. `sorted_by`: the column that is sorted by first, upwards.
   ReaderTable(const std::vector<Column>& columns, const QString& name, int sorted_by,

@@ -31,7 +31,8 @@ class JsonAnswer final : public FoundAnswer {
     const JsonField values = attribute.at("Value");
     std::string all;
     for (std::size_t i = 0; i < values.size(kMostValues); ++i) {
-      all += (i == 0 ? "" : "\\") + value_of(values.at(i));
+      if (i > 0) all += '\\';
+      all += value_of(values.at(i));
     }
     return clean_text(std::move(all));
   }
@@ -44,9 +45,12 @@ class JsonAnswer final : public FoundAnswer {
     std::string name;
     std::string divider;
     for (const char* form : {"Alphabetic", "Ideographic", "Phonetic"}) {
-      if (value.has(form)) name += divider + value.at(form).text(kMostRead);
+      if (value.has(form)) {
+        name += divider;
+        name += value.at(form).text(kMostRead);
+        divider.clear();
+      }
       divider += '=';
-      if (value.has(form)) divider = "=";
     }
     return name;
   }
@@ -63,7 +67,8 @@ Result<std::string> text_from(HttpConnection& connection, const std::string& res
 std::string question(const std::string& resource, const QueryKeys& keys, std::int64_t limit) {
   std::string all = fmt::format("{}?limit={}", resource, limit);
   for (const auto& [key, value] : keys) {
-    all += value.empty() ? "&includefield=" + tag_of(key) : "&" + tag_of(key) + "=" + escaped(value);
+    all += value.empty() ? fmt::format("&includefield={}", tag_of(key))
+                         : fmt::format("&{}={}", tag_of(key), escaped(value));
   }
   return all;
 }
