@@ -47,13 +47,13 @@ Result<VoxelMap> make_map(const Geometry& image, const glm::dmat4& transform, co
 }
 
 // The two voxels between which a place lies along one axis; nothing outside of the image.
-struct Between {
+struct BetweenVoxels {
   std::int64_t low = 0;
   std::int64_t high = 0;
   double part = 0.0;  // of the higher one
 };
 
-bool find(double place, std::int64_t voxels, Between& between) {
+bool find(double place, std::int64_t voxels, BetweenVoxels& between) {
   if (!(place >= -0.5 && place <= static_cast<double>(voxels) - 0.5)) return false;
   const double inside = std::clamp(place, 0.0, static_cast<double>(voxels - 1));
   between.low = static_cast<std::int64_t>(inside);
@@ -65,7 +65,7 @@ bool find(double place, std::int64_t voxels, Between& between) {
 // The stored value at a place in voxels; false outside of the image.
 template <class Voxel>
 bool interpolate(const Geometry& image, const Voxel* voxels, glm::dvec3 place, double& value) {
-  std::array<Between, 3> at;
+  std::array<BetweenVoxels, 3> at;
   for (int axis = 0; axis < 3; ++axis) {
     if (!find(place[axis], image.size[axis], at[static_cast<std::size_t>(axis)])) return false;
   }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "imaging/dicom/same_slices.h"
+#include "imaging/guard/spacing.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -16,9 +17,7 @@ using Slices = std::vector<SliceHeader>;
 // The reason for a failed check, or nothing.
 using Reason = std::optional<std::string>;
 
-// Beyond these (mm) a number is damage, not anatomy.
-constexpr double kLargestSpacing = 1000.0;
-constexpr double kSmallestSpacing = 1e-5;
+// Beyond this (mm) a number is damage, not anatomy.
 constexpr double kLargestPosition = 1e6;
 
 std::string name(const SliceHeader& slice) {
@@ -67,12 +66,12 @@ Reason check_numbers(const Slices& slices) {
   for (const SliceHeader& slice : slices) {
     const glm::dvec2 spacing = *slice.pixel_spacing_mm;
     for (const double s : {spacing.x, spacing.y}) {
-      // Written so that NaN fails.
-      if (!(s >= kSmallestSpacing && s <= kLargestSpacing)) {
+      if (!is_sensible_spacing(s)) {
         return fmt::format("{}: PixelSpacing (0028,0030) is {} mm", name(slice), s);
       }
     }
     for (const double p : {slice.position_mm->x, slice.position_mm->y, slice.position_mm->z}) {
+      // Written so that NaN fails.
       if (!(std::abs(p) <= kLargestPosition)) {
         return fmt::format("{}: ImagePositionPatient (0020,0032) is {} mm", name(slice), p);
       }
@@ -190,8 +189,7 @@ ImageStack stack_of(const Slices& slices, const glm::dmat3& axes) {
 
 // An image that is its whole series needs no place among others: what it does not say is supposed, and told.
 void complete_single(SliceHeader& slice, Series& series) {
-  const auto is_sensible = [](double mm) { return mm >= kSmallestSpacing && mm <= kLargestSpacing; };
-  if (!slice.thickness_mm || !is_sensible(*slice.thickness_mm)) {
+  if (!slice.thickness_mm || !is_sensible_spacing(*slice.thickness_mm)) {
     slice.thickness_mm = 1.0;
     series.changes.emplace_back("a single image is a volume of one slice, which counts as 1 mm thick");
   } else {

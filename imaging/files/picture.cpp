@@ -7,6 +7,7 @@
 
 #include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
+#include "imaging/guard/spacing.h"
 
 namespace tidemark::imaging::files {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 constexpr double kMmPerInch = 25.4;
 // Pictures that cost no more than 64 MiB as float may have any number of pixels a byte.
 constexpr std::int64_t kFewPixels = std::int64_t{1} << 24;
-// Beyond these a resolution is damage.
-constexpr double kSmallestSpacing = 1e-5;
-constexpr double kLargestSpacing = 1000.0;
 
 // 72 and 96 dots per inch are what programs write for a screen; nobody measured them.
 bool is_of_screen(double pixels_per_mm) {
@@ -64,12 +62,11 @@ Geometry place(PictureHeader& header) {
   geometry.size = {header.columns, header.rows, header.pages};
   const glm::dvec2 resolution = header.pixels_per_mm;
   const glm::dvec2 spacing = 1.0 / resolution;
-  const auto is_sensible = [](double mm) { return mm >= kSmallestSpacing && mm <= kLargestSpacing; };
   if (is_of_screen(resolution.x) && is_of_screen(resolution.y)) {
     header.warnings.push_back(fmt::format(
         "its {:.0f} dots per inch are a screen's and say nothing about the object: a pixel counts as 1 mm",
         resolution.x * kMmPerInch));
-  } else if (is_sensible(spacing.x) && is_sensible(spacing.y)) {
+  } else if (is_sensible_spacing(spacing.x) && is_sensible_spacing(spacing.y)) {
     geometry.spacing_mm = {spacing.x, spacing.y, 1.0};
     header.changes.push_back(
         fmt::format("its resolution makes pixels of {:.6g} x {:.6g} mm", spacing.x, spacing.y));

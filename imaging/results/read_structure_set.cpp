@@ -26,7 +26,7 @@ constexpr double kPlaneTolerance =
 constexpr double kFarthest = 1e9;  // voxels
 
 // Planning systems write some thousand.
-constexpr std::ptrdiff_t kMostPoints = 1'000'000;  // of a contour
+constexpr std::ptrdiff_t kMostContourPoints = 1'000'000;  // of a contour
 constexpr std::size_t kMostRegions = 4096;
 
 // The text of ContourData, which may be longer than any other.
@@ -39,9 +39,9 @@ Result<std::vector<double>> numbers_of(DcmItem& contour, const fs::path& file) {
   }
   const bool is_text = element->getString(text, length).good() && text != nullptr;
   const std::string_view whole(is_text ? text : "", is_text ? length : 0);
-  if (std::count(whole.begin(), whole.end(), '\\') >= 3 * kMostPoints) {
+  if (std::count(whole.begin(), whole.end(), '\\') >= 3 * kMostContourPoints) {
     return fail(ErrorKind::input, "{}: ContourData (3006,0050) has more than {} points", file.string(),
-                kMostPoints);
+                kMostContourPoints);
   }
   auto numbers = parse_decimals(whole);
   element->compact();  // its text is in the file

@@ -11,7 +11,7 @@ namespace {
 // Resampled and rescaled values leave their range by rounding.
 constexpr float kRounding = 1e-4F;
 
-enum Form { by_values = 0, probability = 1, speed = 2 };
+enum Form { by_values = 0, probability = 1, is_speed = 2 };
 
 class ImageSpeed final : public SpeedFunction {
  public:
@@ -74,7 +74,7 @@ Result<std::shared_ptr<const SpeedFunction>> make_image(const SpeedInputs& input
   auto low = smallest(map);
   if (!low) return pass_on(low);
   const auto form = std::lround(values.at("form"));
-  const bool has_speed = form == speed || (form == by_values && *low < -kRounding);
+  const bool has_speed = form == is_speed || (form == by_values && *low < -kRounding);
   TIDEMARK_TRY(check_values(map, has_speed ? -1.0F : 0.0F));
   return std::make_shared<ImageSpeed>(inputs.map, has_speed ? 1.0 : 2.0, has_speed ? 0.0 : -1.0);
 }
@@ -94,7 +94,7 @@ const SpeedKind& image_kind() {
                       .text = "What the map holds. By its values: a speed where any is below 0.",
                       .unit = "",
                       .low = by_values,
-                      .high = speed,
+                      .high = is_speed,
                       .initial = by_values,
                       .choices = {{"by-values", "By its values"},
                                   {"probability", "Probability, 0 to 1"},

@@ -22,7 +22,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kLongestName = 100;
+constexpr int kLongestStudentName = 100;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ HandInBox::HandInBox(engine::LessonCourse& course, QWidget* parent) : QWidget(pa
   heading->setFont(bold);
   score_ = make_note({});
   name_ = new QLineEdit;
-  name_->setMaxLength(kLongestName);
+  name_->setMaxLength(kLongestStudentName);
   name_->setPlaceholderText(tr("Your name"));
   name_->setAccessibleName(tr("Your name"));
   name_->setToolTip(tr("Is written into the file that you choose, and kept nowhere else."));

@@ -14,7 +14,7 @@
 namespace tidemark::ui {
 namespace {
 
-enum Column { part_column, figure_column, measured_column, expected_column, verdict_column };
+enum TrialColumn { part_column, figure_column, measured_column, expected_column, verdict_column };
 
 }  // namespace
 

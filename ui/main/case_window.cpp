@@ -24,8 +24,8 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr const char* kKind = "view_kind";      // property of a dock
-constexpr const char* kNumber = "view_number";  // of its name, by which Qt finds it in a saved state
+constexpr const char* kKind = "view_kind";          // property of a dock
+constexpr const char* kViewNumber = "view_number";  // of its name, by which Qt finds it in a saved state
 constexpr int kLayoutVersion = 1;
 
 ViewKind kind_of(const QDockWidget* dock) {
@@ -198,7 +198,7 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind, int number) {
   PictureView* view = make_view(kind);
   auto* dock = new QDockWidget(view->title(), this);
   dock->setObjectName(QStringLiteral("view-%1").arg(number));
-  dock->setProperty(kNumber, number);
+  dock->setProperty(kViewNumber, number);
   dock->setProperty(kKind, static_cast<int>(kind));
   dock->setWidget(view);
   auto* bar = new ViewBar(*proxy_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
@@ -380,7 +380,7 @@ QByteArray CaseWindow::arrangement() const {
   QList<int> numbers;
   for (const QDockWidget* dock : docks_) {
     kinds << static_cast<int>(kind_of(dock));
-    numbers << dock->property(kNumber).toInt();
+    numbers << dock->property(kViewNumber).toInt();
   }
   // One view that is large for a moment does not make the others go.
   const QByteArray state = before_maximised_.isEmpty() ? saveState(kLayoutVersion) : before_maximised_;

@@ -10,7 +10,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr const char* kName = "first-steps-page";  // of the one window
+constexpr const char* kPageName = "first-steps-page";  // of the one window
 
 QString row(const QString& what, const QString& how) {
   return QStringLiteral("<tr><td>%1</td><td>&nbsp;&nbsp;</td><td>%2</td></tr>").arg(what, how);
@@ -69,10 +69,10 @@ QString keys(const Actions& actions) {
 }  // namespace
 
 void show_first_steps(QWidget* parent, const Actions& actions) {
-  auto* dialog = parent->findChild<QDialog*>(kName, Qt::FindDirectChildrenOnly);
+  auto* dialog = parent->findChild<QDialog*>(kPageName, Qt::FindDirectChildrenOnly);
   if (!dialog) {
     dialog = new QDialog(parent);
-    dialog->setObjectName(kName);
+    dialog->setObjectName(kPageName);
     dialog->setWindowTitle(tr("First steps, mouse and keys"));
     auto* page = new QTextBrowser;
     page->setFrameShape(QFrame::NoFrame);

@@ -10,10 +10,10 @@ namespace tidemark::ui {
 namespace {
 
 constexpr int kPadding = 12;
-constexpr int kGap = 3;  // between title and sentence
-constexpr double kRadius = 6.0;
+constexpr int kTitleGap = 3;  // between title and sentence
+constexpr double kCardRadius = 6.0;
 constexpr int kWishedWidth = 300;
-constexpr int kLeastWidth = 150;
+constexpr int kLeastCardWidth = 150;
 constexpr int kPictureSide = 56;
 constexpr int kWrapped = Qt::AlignTop | Qt::AlignLeft | Qt::TextWordWrap;
 
@@ -74,10 +74,10 @@ QSize CardButton::sizeHint() const {
 }
 
 QSize CardButton::minimumSizeHint() const {
-  if (one_line_) return {kLeastWidth, heightForWidth(kLeastWidth)};
+  if (one_line_) return {kLeastCardWidth, heightForWidth(kLeastCardWidth)};
   const int word = std::max(longest_word(QFontMetrics(title_font()), text()),
                             longest_word(QFontMetrics(font()), sentence_));
-  return {std::max(kLeastWidth, text_left() + word + kPadding), heightForWidth(kWishedWidth)};
+  return {std::max(kLeastCardWidth, text_left() + word + kPadding), heightForWidth(kWishedWidth)};
 }
 
 int CardButton::title_height(int room) const {
@@ -89,7 +89,7 @@ int CardButton::heightForWidth(int width) const {
   const QFontMetrics text(font());
   const int room = std::max(1, width - text_left() - kPadding);
   const int lines = one_line_ ? text.height() : wrapped_height(text, sentence_, room);
-  const int texts = title_height(room) + kGap + lines;
+  const int texts = title_height(room) + kTitleGap + lines;
   return 2 * kPadding + std::max(texts, picture_.isNull() ? 0 : kPictureSide);
 }
 
@@ -108,10 +108,11 @@ void CardButton::paint_frame(QPainter& painter) const {
   const double width = hasFocus() ? 2.0 : 1.0;
   painter.setPen(QPen(hasFocus() ? accent : line, width));
   painter.setBrush(fill);
-  painter.drawRoundedRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0), kRadius, kRadius);
+  painter.drawRoundedRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0), kCardRadius, kCardRadius);
   if (emphasised_ && hasFocus()) {  // its line has the colour of focus anyway
     painter.setBrush(Qt::NoBrush);
-    painter.drawRoundedRect(QRectF(rect()).adjusted(4.0, 4.0, -4.0, -4.0), kRadius - 2.0, kRadius - 2.0);
+    painter.drawRoundedRect(QRectF(rect()).adjusted(4.0, 4.0, -4.0, -4.0), kCardRadius - 2.0,
+                            kCardRadius - 2.0);
   }
 }
 
@@ -148,7 +149,7 @@ void CardButton::paintEvent(QPaintEvent*) {
   draw(inside, text(), Qt::ElideRight);
   painter.setFont(font());
   painter.setPen(mixed(strong, palette().color(QPalette::Base), 0.25));
-  draw(inside.adjusted(0, title_height(inside.width()) + kGap, 0, 0), sentence_, Qt::ElideMiddle);
+  draw(inside.adjusted(0, title_height(inside.width()) + kTitleGap, 0, 0), sentence_, Qt::ElideMiddle);
 }
 
 void CardButton::keyPressEvent(QKeyEvent* event) {

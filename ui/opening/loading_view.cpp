@@ -7,7 +7,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kSteps = 1000;  // of the bar
+constexpr int kLoadingSteps = 1000;  // of the bar
 constexpr int kCardWidth = 380;
 constexpr int kLineBarWidth = 160;
 
@@ -65,8 +65,8 @@ void LoadingView::begin(const QString& what) {
 void LoadingView::set_progress(double fraction, const QString& step) {
   if (failed_) return;
   step_->setText(step);
-  bar_->setRange(0, fraction < 0.0 ? 0 : kSteps);
-  bar_->setValue(static_cast<int>(std::lround(fraction * kSteps)));
+  bar_->setRange(0, fraction < 0.0 ? 0 : kLoadingSteps);
+  bar_->setValue(static_cast<int>(std::lround(fraction * kLoadingSteps)));
 }
 
 void LoadingView::fail(const QString& message) {

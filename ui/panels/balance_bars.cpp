@@ -12,7 +12,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kNumber = 52;  // pixels of the unscaled screen
+constexpr int kNumberWidth = 52;  // pixels of the unscaled screen
 
 // "+0.123"
 QString signed_text(double value) {
@@ -79,7 +79,7 @@ void BalanceBars::paintEvent(QPaintEvent* /*event*/) {
 void BalanceBars::paint_bar(QPainter& painter, const Bar& bar, const QRectF& row, double largest) const {
   double names = 0.0;
   for (const Bar& each : bars_) names = std::max(names, double(fontMetrics().horizontalAdvance(each.name)));
-  const QRectF area = row.adjusted(names + kSpace, 2.0, -kNumber, -2.0);
+  const QRectF area = row.adjusted(names + kSpace, 2.0, -kNumberWidth, -2.0);
   const double middle = area.center().x();
   const double half = 0.5 * area.width();
   const bool is_sum = &bar == &bars_.back();

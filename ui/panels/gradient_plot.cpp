@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBandSwatch = 9.0;
 constexpr double kGradientTickPixels = 44.0;
-constexpr int kLight = 90;  // opacity of the whole band's bars
+constexpr int kFaint = 90;  // opacity of the whole band's bars
 
 PlotAxis axis_of(const QRectF& area, double highest) {
   return {0.0, highest, area.left(), area.right()};
@@ -58,7 +58,7 @@ void GradientPlot::paint_bars(QPainter& painter, const QRectF& area) const {
   const double wide = area.width() / solver::GradientHistogram::kBins;
   const QColor strong = palette().color(QPalette::Link);
   QColor light = strong;
-  light.setAlpha(kLight);
+  light.setAlpha(kFaint);
   const auto paint = [&](const solver::GradientHistogram::Part& part, const QColor& colour) {
     for (std::size_t bin = 0; bin < part.counts.size(); ++bin) {
       const double high = (area.height() - 3.0) * static_cast<double>(part.counts[bin]) / most;
@@ -93,7 +93,7 @@ void GradientPlot::paint_axis(QPainter& painter, const QRectF& area) const {
 
 void GradientPlot::paint_legend(QPainter& painter) const {
   QColor light = palette().color(QPalette::Link);
-  light.setAlpha(kLight);
+  light.setAlpha(kFaint);
   double left = 0.0;
   const auto entry = [&](const QColor& colour, const QString& text) {
     const double line = fontMetrics().height();

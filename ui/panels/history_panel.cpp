@@ -18,7 +18,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kListHeight = 160;  // at least
+constexpr int kHistoryHeight = 160;  // at least
 
 }  // namespace
 
@@ -42,7 +42,7 @@ QWidget* HistoryPanel::make_list() {
   list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   list_->setSelectionMode(QAbstractItemView::SingleSelection);
   list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  list_->setMinimumHeight(kListHeight);
+  list_->setMinimumHeight(kHistoryHeight);
   list_->installEventFilter(this);
   connect(list_, &QListView::clicked, this, &HistoryPanel::clicked);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, &HistoryPanel::show_buttons);

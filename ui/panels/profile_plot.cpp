@@ -13,7 +13,7 @@ constexpr double kPhiHeight = 84.0;
 constexpr double kValueHeight = 64.0;
 constexpr double kProfileTickPixels = 24.0;
 constexpr double kAlongPixels = 52.0;
-constexpr double kRoom = 0.08;  // above and below curves, of their extent
+constexpr double kCurveRoom = 0.08;  // above and below curves, of their extent
 
 }  // namespace
 
@@ -41,7 +41,7 @@ QRectF ProfilePlot::pane_area(double top, double high) const {
 
 ProfilePlot::Pane ProfilePlot::phi_pane() const {
   const QRectF area = pane_area(fontMetrics().height(), kPhiHeight);
-  const double most = content_.band * (1.0 + kRoom);
+  const double most = content_.band * (1.0 + kCurveRoom);
   return {area,
           {0.0, std::max(content_.length_mm, 1e-6), area.left(), area.right()},
           {-most, most, area.bottom(), area.top()}};
@@ -63,7 +63,7 @@ ProfilePlot::Pane ProfilePlot::value_pane() const {
   const double extent = std::max(high - low, 1e-6);
   low = std::max(std::min(low, content_.target - content_.range), low - extent);
   high = std::min(std::max(high, content_.target + content_.range), high + extent);
-  const double room = kRoom * std::max(high - low, 1e-6);
+  const double room = kCurveRoom * std::max(high - low, 1e-6);
   return {area,
           {0.0, std::max(content_.length_mm, 1e-6), area.left(), area.right()},
           {low - room, high + room, area.bottom(), area.top()}};

@@ -13,7 +13,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kGap = 2;
+constexpr int kCellGap = 2;
 constexpr int kLargestSide = 180;
 constexpr int kScaleHeight = 8;
 constexpr double kBright = 0.45;  // of a colour on which text is black
@@ -114,8 +114,8 @@ void SweepMatrix::lay_out() {
     left_ += kSpaceTight;
   }
   top_ = 2 * metrics.height() + kSpaceTight;
-  side_ = std::clamp((width() - left_) / sweep.columns() - kGap, 8, kLargestSide);
-  setFixedHeight(top_ + sweep.rows() * (side_ + strip_ + kGap) + kSpace + kScaleHeight + 2 * strip_);
+  side_ = std::clamp((width() - left_) / sweep.columns() - kCellGap, 8, kLargestSide);
+  setFixedHeight(top_ + sweep.rows() * (side_ + strip_ + kCellGap) + kSpace + kScaleHeight + 2 * strip_);
   update();
 }
 
@@ -125,12 +125,13 @@ void SweepMatrix::resizeEvent(QResizeEvent* event) {
 }
 
 QRect SweepMatrix::picture_at(QPoint cell) const {
-  return {left_ + cell.x() * (side_ + kGap), top_ + cell.y() * (side_ + strip_ + kGap), side_, side_};
+  return {left_ + cell.x() * (side_ + kCellGap), top_ + cell.y() * (side_ + strip_ + kCellGap), side_, side_};
 }
 
 std::optional<QPoint> SweepMatrix::cell_at(QPoint place) const {
   if (!outcome_) return std::nullopt;
-  const QPoint cell((place.x() - left_) / (side_ + kGap), (place.y() - top_) / (side_ + strip_ + kGap));
+  const QPoint cell((place.x() - left_) / (side_ + kCellGap),
+                    (place.y() - top_) / (side_ + strip_ + kCellGap));
   const bool inside = place.x() >= left_ && place.y() >= top_ && cell.x() < outcome_->sweep.columns() &&
                       cell.y() < outcome_->sweep.rows();
   return inside ? std::optional(cell) : std::nullopt;
@@ -156,10 +157,10 @@ void SweepMatrix::paint_axes(QPainter& painter) const {
   const int line = fontMetrics().height();
   painter.setPen(palette().color(QPalette::WindowText));
   const QString across = sweep_parameter_text(sweep.axes.front().parameter);
-  painter.drawText(QRect(left_, 0, sweep.columns() * (side_ + kGap), line), Qt::AlignCenter, across);
+  painter.drawText(QRect(left_, 0, sweep.columns() * (side_ + kCellGap), line), Qt::AlignCenter, across);
   for (int column = 0; column < sweep.columns(); ++column) {
     const QRect below = picture_at({column, 0});
-    painter.drawText(QRect(below.x() - kGap, line, side_ + 2 * kGap, line), Qt::AlignCenter,
+    painter.drawText(QRect(below.x() - kCellGap, line, side_ + 2 * kCellGap, line), Qt::AlignCenter,
                      value_text(sweep.axes.front().value(column)));
   }
   if (sweep.axes.size() < 2) return;
@@ -201,7 +202,7 @@ void SweepMatrix::paint_run(QPainter& painter, QPoint cell) const {
 void SweepMatrix::paint_scale(QPainter& painter) const {
   const document::Sweep& sweep = outcome_->sweep;
   const int bottom = picture_at({0, sweep.rows() - 1}).bottom() + strip_ + kSpace;
-  const QRect bar(left_, bottom, std::min(width() - left_, sweep.columns() * (side_ + kGap)) - kGap,
+  const QRect bar(left_, bottom, std::min(width() - left_, sweep.columns() * (side_ + kCellGap)) - kCellGap,
                   kScaleHeight);
   QLinearGradient gradient(bar.topLeft(), bar.topRight());
   constexpr int kStops = 8;

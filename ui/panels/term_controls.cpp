@@ -1,7 +1,6 @@
 #include "ui/panels/term_controls.h"
 
 #include <QComboBox>
-#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
@@ -16,11 +15,6 @@
 namespace tidemark::ui {
 namespace {
 
-// Texts of the registry are in English.
-QString translated(const char* text) {
-  return QCoreApplication::translate("Speed", text);
-}
-
 constexpr double kWide = 100.0;  // high / low from which on a slider is logarithmic
 
 }  // namespace
@@ -30,7 +24,7 @@ TermControls::TermControls(const QString& title, const solver::SpeedKind& kind, 
     : QWidget(parent), kind_(&kind) {
   Form form(this);
   add_choice(form, title, removable);
-  form.note(translated(kind.text))->setForegroundRole(QPalette::PlaceholderText);
+  form.note(tr(kind.text))->setForegroundRole(QPalette::PlaceholderText);
   add_numbers(form);
 }
 
@@ -45,8 +39,8 @@ void TermControls::add_choice(Form& form, const QString& title, bool removable) 
   choice_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   guard_wheel(choice_);
   for (const solver::SpeedKind& kind : solver::speed_kinds()) {
-    choice_->addItem(translated(kind.title), QString::fromLatin1(kind.name));
-    choice_->setItemData(choice_->count() - 1, translated(kind.text), Qt::ToolTipRole);
+    choice_->addItem(tr(kind.title), QString::fromLatin1(kind.name));
+    choice_->setItemData(choice_->count() - 1, tr(kind.text), Qt::ToolTipRole);
   }
   choice_->setCurrentIndex(choice_->findData(QString::fromLatin1(kind_->name)));
   connect(choice_, &QComboBox::activated, this, [this] {
@@ -62,14 +56,14 @@ void TermControls::add_choice(Form& form, const QString& title, bool removable) 
     remove->setAutoRaise(true);
     remove->setFocusPolicy(Qt::StrongFocus);
     remove->setToolTip(tr("The surface is driven by the others alone."));
-    remove->setAccessibleName(tr("Remove %1").arg(translated(kind_->title)));
+    remove->setAccessibleName(tr("Remove %1").arg(tr(kind_->title)));
     connect(remove, &QToolButton::clicked, this, &TermControls::remove_wanted);
     row->addWidget(remove);
   }
-  form.row(title, line, translated(kind_->text));
+  form.row(title, line, tr(kind_->text));
   line->setAccessibleName({});
   choice_->setAccessibleName(title);
-  choice_->setToolTip(translated(kind_->text));
+  choice_->setToolTip(tr(kind_->text));
 }
 
 void TermControls::add_numbers(Form& form) {
@@ -78,14 +72,14 @@ void TermControls::add_numbers(Form& form) {
 }
 
 void TermControls::add_number(Form& form, const solver::SpeedParameter& parameter) {
-  SliderNumber* number = form.slider(translated(parameter.title), translated(parameter.text));
+  SliderNumber* number = form.slider(tr(parameter.title), tr(parameter.text));
   const double span = parameter.high - parameter.low;
   const bool is_wide = parameter.low > 0.0 && parameter.high / parameter.low >= kWide;
   number->set_decimals(is_wide ? std::max(decimals_for(span), decimals_for(100.0 * parameter.low))
                                : decimals_for(span));
   number->set_range(parameter.low, parameter.high,
                     is_wide ? SliderNumber::Scale::logarithmic : SliderNumber::Scale::linear);
-  number->set_unit(translated(parameter.unit));
+  number->set_unit(tr(parameter.unit));
   number->set_value(parameter.initial);
   connect(number, &SliderNumber::edited, this,
           [this, name = QString::fromLatin1(parameter.name)](double value, std::uint64_t gesture) {
@@ -95,8 +89,8 @@ void TermControls::add_number(Form& form, const solver::SpeedParameter& paramete
 }
 
 void TermControls::add_words(Form& form, const solver::SpeedParameter& parameter) {
-  QComboBox* words = form.choice(translated(parameter.title), translated(parameter.text));
-  for (const solver::SpeedChoice& choice : parameter.choices) words->addItem(translated(choice.title));
+  QComboBox* words = form.choice(tr(parameter.title), tr(parameter.text));
+  for (const solver::SpeedChoice& choice : parameter.choices) words->addItem(tr(choice.title));
   connect(words, &QComboBox::activated, this,
           [this, name = QString::fromLatin1(parameter.name), low = parameter.low](int index) {
             emit number_edited(name, low + index, 0);

@@ -17,14 +17,14 @@ namespace {
 
 constexpr double kRounding = 1e-6;  // what is smaller is rounding
 
-constexpr double kSmallest = 0.6;  // of captions
+constexpr double kSmallestCaption = 0.6;  // of captions
 
 // In which a caption is as wide as its picture at most: words of other languages are longer.
 QFont fitting(QFont font, const QStringList& pieces, int width) {
   const auto fits = [&](const QString& piece) {
     return QFontMetrics(font).horizontalAdvance(piece) <= width;
   };
-  const double smallest = kSmallest * font.pointSizeF();
+  const double smallest = kSmallestCaption * font.pointSizeF();
   // By steps: drawn sizes are whole pixels.
   while (font.pointSizeF() > smallest && !std::all_of(pieces.begin(), pieces.end(), fits))
     font.setPointSizeF(font.pointSizeF() - 0.5);

@@ -26,7 +26,7 @@ namespace tidemark::ui {
 namespace {
 
 constexpr int kDialogWidth = 600;
-constexpr int kNameWidth = 380;  // of patient and series
+constexpr int kSeriesWidth = 380;  // of patient and series
 constexpr int kOutcomeHeight = 160;
 constexpr int kLongestEntry = 64;  // letters of a DICOM value of that kind (LO)
 
@@ -135,7 +135,7 @@ void DeidentifyDialog::make_source(Form& form, const engine::LoadedStudy* study)
     QStringList parts{QString::fromStdString(study->patient.name), study->name};
     parts.removeAll(QString());
     const QString whole = parts.join(QStringLiteral(", "));
-    QString name = of_series_->fontMetrics().elidedText(whole, Qt::ElideMiddle, kNameWidth);
+    QString name = of_series_->fontMetrics().elidedText(whole, Qt::ElideMiddle, kSeriesWidth);
     of_series_->setText(tr("The &series that is open: %1").arg(name.replace('&', QStringLiteral("&&"))));
     of_series_->setAccessibleDescription(whole);
     of_series_->setChecked(true);

@@ -1,17 +1,13 @@
 #include "ui/transfer/axis_primitive.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 #include <algorithm>
 
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
 namespace {
-
-QString translated(const char* text) {
-  return QCoreApplication::translate("AxisPrimitive", text);
-}
 
 QString number(double value) {
   return general_text(value, 4);
@@ -64,12 +60,11 @@ QString describe(const AxisPrimitive& primitive, const std::vector<PrimitiveAxis
     if (!parts.isEmpty() || i > 0) {
       parts << axes[i].name.toLower() + ' ' + text;
     } else {
-      parts << (factor.kind == renderer::TransferFactor::Kind::gaussian ? translated("Gaussian %1")
-                                                                        : translated("Ramp %1"))
+      parts << (factor.kind == renderer::TransferFactor::Kind::gaussian ? tr("Gaussian %1") : tr("Ramp %1"))
                    .arg(text);
     }
   }
-  if (parts.isEmpty()) return translated("Everything");
+  if (parts.isEmpty()) return tr("Everything");
   QString text = parts.join(QStringLiteral(", "));
   text[0] = text[0].toUpper();
   return text;

@@ -9,7 +9,7 @@ namespace tidemark::ui {
 namespace {
 
 constexpr double kTick = 4.0;
-constexpr double kGap = 3.0;
+constexpr double kTickGap = 3.0;
 
 // Sharp at any scale: a line in the middle of a pixel.
 double crisp(double pixel) {
@@ -52,10 +52,10 @@ QFont axis_font(const QFont& font) {
 }
 
 PlotMargins plot_margins(const QFontMetrics& metrics, bool with_counts) {
-  const int side = static_cast<int>(kTick + kGap) + metrics.height() + 2;
+  const int side = static_cast<int>(kTick + kTickGap) + metrics.height() + 2;
   return {side + metrics.horizontalAdvance(QStringLiteral("0.001")),
           with_counts ? side + metrics.horizontalAdvance(QStringLiteral("10⁸")) : metrics.height(),
-          metrics.height() / 2 + 2, static_cast<int>(kTick + kGap) + 2 * metrics.height() + 2};
+          metrics.height() / 2 + 2, static_cast<int>(kTick + kTickGap) + 2 * metrics.height() + 2};
 }
 
 void draw_bottom_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis, const QString& title,
@@ -82,7 +82,7 @@ void draw_left_axis(QPainter& painter, const QRectF& area, const PlotAxis& axis,
        ticks(axis, axis.power == 1.0 ? 2.5 * metrics.height() : metrics.height() + 4.0)) {
     const double y = crisp(axis.pixel(value));
     painter.drawLine(QPointF(area.left() - kTick, y), QPointF(area.left(), y));
-    const QRectF room(0.0, y - metrics.height() / 2.0, area.left() - kTick - kGap, metrics.height());
+    const QRectF room(0.0, y - metrics.height() / 2.0, area.left() - kTick - kTickGap, metrics.height());
     painter.drawText(room, Qt::AlignRight | Qt::AlignVCenter, tick_text(value));
   }
   draw_side_title(painter, 0.0, area, title);
@@ -99,7 +99,7 @@ void draw_count_axis(QPainter& painter, const QRectF& area, double most, const Q
     const double share = std::log1p(std::pow(10.0, exponent)) / std::log1p(std::max(1.0, most));
     const double y = crisp(area.bottom() - share * area.height());
     painter.drawLine(QPointF(area.right(), y), QPointF(area.right() + kTick, y));
-    const QRectF room(area.right() + kTick + kGap, y - metrics.height() / 2.0, 100.0, metrics.height());
+    const QRectF room(area.right() + kTick + kTickGap, y - metrics.height() / 2.0, 100.0, metrics.height());
     painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter, power_of_ten(exponent));
   }
   draw_side_title(painter, painter.window().width() - metrics.height(), area, title);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kHandleReach = 9.0;  // logical pixels around a handle's middle
 constexpr double kFineSteps = 500.0;  // of the keys, along an axis
-constexpr double kSmallest = 500.0;   // widths and ramps are at least this part of the range
+constexpr double kFinest = 500.0;     // widths and ramps are at least this part of the range
 
 double distance_between(QPointF a, QPointF b) {
   return std::hypot(a.x() - b.x(), a.y() - b.y());
@@ -114,7 +114,7 @@ void TransferPlot::drag_to(QPointF pointer) {
   const QPointF pixel = pointer - drag_->offset;
   const glm::dvec2 to{std::clamp(x_axis_.value(pixel.x()), x_axis_.low, x_axis_.high),
                       std::clamp(y_axis_.value(pixel.y()), y_axis_.low, y_axis_.high)};
-  const glm::dvec2 smallest{x_axis_.extent() / kSmallest, y_axis_.extent() / kSmallest};
+  const glm::dvec2 smallest{x_axis_.extent() / kFinest, y_axis_.extent() / kFinest};
   emit edited(drag_->index,
               moved(primitives_[static_cast<std::size_t>(drag_->index)], drag_->handle, to, smallest));
 }
@@ -220,7 +220,7 @@ void TransferPlot::move_by_keys(QPointF direction, bool coarse) {
   // As far along the axis on any screen; a step of the opacity's axis is finer where there is little of it.
   const double x = pixel.x() + direction.x() * step * (x_axis_.to - x_axis_.from) / kFineSteps;
   const double y = pixel.y() + direction.y() * step * (y_axis_.to - y_axis_.from) / kFineSteps;
-  const glm::dvec2 smallest{x_axis_.extent() / kSmallest, y_axis_.extent() / kSmallest};
+  const glm::dvec2 smallest{x_axis_.extent() / kFinest, y_axis_.extent() / kFinest};
   const glm::dvec2 to{x_axis_.value(x), std::clamp(y_axis_.value(y), y_axis_.low, y_axis_.high)};
   // A move across the handle's direction leaves its other coordinates unchanged, to the last digit.
   const HandleKind kind{direction.x() != 0.0 ? handle.kind.x : Grip::none,

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kGlide = 350;  // ms
 // Around a surface that may grow: it fills the rest of the picture before the camera moves again.
-constexpr double kRoom = 1.3;
+constexpr double kSurfaceRoom = 1.3;
 // A seed stays in the context of its volume.
 constexpr double kNearest = 4.0;
 
@@ -58,7 +58,7 @@ void CameraFollower::follow() {
   const bool moves = glide_.state() == QAbstractAnimation::Running;
   const bool sees = camera().sees(renderer::box_around(*seen_), proxy_.volume().geometry, aspect);
   if (!first && (moves || sees)) return;
-  renderer::Camera next = on_surface(camera(), kRoom);
+  renderer::Camera next = on_surface(camera(), kSurfaceRoom);
   next.zoom = std::min(next.zoom, kNearest);
   first ? set(next) : glide_to(next);
 }

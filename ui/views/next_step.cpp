@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kPlaySide = 88;  // logical pixels
 constexpr int kHintWidth = 250;
-constexpr double kRadius = 8.0;
+constexpr double kHintRadius = 8.0;
 
 // Views are dark in every theme.
 const QColor kBacking(0, 0, 0, 150);
@@ -132,7 +132,7 @@ void NextStep::paintEvent(QPaintEvent* /*event*/) {
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(Qt::NoPen);
   painter.setBrush(kBacking);
-  painter.drawRoundedRect(rect(), kRadius, kRadius);
+  painter.drawRoundedRect(rect(), kHintRadius, kHintRadius);
 }
 
 }  // namespace tidemark::ui

@@ -13,7 +13,7 @@
 namespace tidemark::ui {
 namespace {
 
-constexpr int kLeastWidth = 60;
+constexpr int kLeastTitleWidth = 60;
 
 }  // namespace
 
@@ -135,7 +135,7 @@ bool ViewBar::event(QEvent* event) {
 }
 
 QSize ViewBar::minimumSizeHint() const {
-  return {std::max(kLeastWidth, room_for(lasting_)), sizeHint().height()};
+  return {std::max(kLeastTitleWidth, room_for(lasting_)), sizeHint().height()};
 }
 
 // With the margins at both ends.
@@ -161,7 +161,7 @@ void ViewBar::show_what_fits() {
   const int title = title_->sizeHint().width();
   show(evolution_, title);
   fits = fits && is_driven_by(proxy_.drive(), "tent");
-  show(numbers_, std::min(title, kLeastWidth));
+  show(numbers_, std::min(title, kLeastTitleWidth));
 }
 
 }  // namespace tidemark::ui

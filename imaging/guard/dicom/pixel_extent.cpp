@@ -18,7 +18,7 @@ constexpr DicomTag kBitsAllocated{0x0028, 0x0100};
 // An empty frame compresses well, but not better than this; beyond it the file claims more than it can hold.
 constexpr std::int64_t kLargestCompression = 4096;
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   constexpr std::string_view kPadding(" \0", 2);
   const std::size_t first = text.find_first_not_of(kPadding);
   if (first == std::string_view::npos) return {};
@@ -36,7 +36,7 @@ std::optional<std::int64_t> PixelExtent::number(const ElementHeader& header, Byt
       header.length <= ByteReader::kMost ? reader.at(header.value, header.length) : nullptr;
   if (bytes == nullptr) return std::nullopt;
   if (header.tag == kNumberOfFrames || header.is("IS") || header.is("DS")) {
-    const auto text = trimmed({reinterpret_cast<const char*>(bytes), header.length});
+    const auto text = without_blanks({reinterpret_cast<const char*>(bytes), header.length});
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<std::int64_t> PixelExtent::needed() const {
   if (!rows_ || !columns_ || !samples_ || !bits_ || !frames_) return std::nullopt;
   const auto bits = checked_product(*rows_, *columns_, *samples_, *bits_, *frames_);
   if (!bits) return std::nullopt;
-  const std::string_view colours = trimmed({colours_.data(), colours_.size()});
+  const std::string_view colours = without_blanks({colours_.data(), colours_.size()});
   // Of these, neighbouring pixels share their colour (PS3.3 C.7.6.3.1.2).
   const bool is_halved = colours == "YBR_FULL_422" || colours == "YBR_PARTIAL_422";
   const std::int64_t shared = is_halved && *samples_ == 3 ? *bits / 3 * 2 : *bits;
