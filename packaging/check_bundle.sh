@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # check_bundle.sh [ARCHIVE.tar.xz]: unpacks the bundle (default: what bundle.sh left) in new systems with nothing in them,
 # Debian 12 and 13 and Ubuntu 24.04, and tries it there as a user who is not root, without a network: both programs
-# without any X library and without OpenGL, then the desktop on an X server that nobody sees.
+# without any X library and without OpenGL, then the desktop on an X server that nobody sees, where it segments a tumour.
 # Leaves pictures of it in build/package/check. Needs root and mmdebstrap; a system that cannot be had is said.
 #   TIDEMARK_SUITES="bookworm"   other systems than all three
 #   TIDEMARK_START_MS=2000       the longest that the processor may need until the window appears; the clock's time is said,
@@ -76,7 +76,8 @@ try_without_x() {
   if find "$home/.local" -name 'tidemark*' | grep .; then fail "--uninstall leaves files"; fi
 }
 
-# Starts the desktop three times on an X server, and says what passes until its window is there; leaves the third's screen.
+# Starts the desktop three times on an X server, and says what passes until its window is there. In the third a click places
+# a surface in the tumour, and another one plays it; its screen is left.
 cat >"$work/desktop.sh" <<'INNER'
 cd /home/user
 mkdir -p screen
@@ -99,7 +100,11 @@ for run in 1 2 3; do
   echo "$processor $clock" >>times
   if [ $run = 3 ]; then
     tr '\0' '\n' <"/proc/$tidemark/environ" | grep -E '^LD_LIBRARY_PATH' >path || :
-    sleep 20
+    sleep 5
+    xdotool mousemove 290 271 click 1  # the tumour in the axial slice
+    sleep 2
+    xdotool mousemove 244 38 click 1  # Play
+    sleep 15
     cp screen/Xvfb_screen0 screen.xwd
   fi
   kill $tidemark
@@ -110,7 +115,7 @@ INNER
 
 try_desktop() {
   echo "-- the desktop, under Xvfb"
-  tidemark_inside "$system" sh -ec 'apt-get update -q && apt-get install -y -q xvfb x11-utils xkb-data' >"$work/apt.log" 2>&1 || {
+  tidemark_inside "$system" sh -ec 'apt-get update -q && apt-get install -y -q xvfb x11-utils xdotool xkb-data' >"$work/apt.log" 2>&1 || {
     tail "$work/apt.log"
     echo "!! SKIPPED: $suite's X server could not be installed"
     return 0
@@ -134,7 +139,11 @@ try_desktop() {
     local colours
     colours=$(convert "$pictures/$suite-desktop.png" -format %k info:)
     ((colours > 500)) || fail "the screen is nearly empty: $colours colours"
-    echo "The screen, with $colours colours: $pictures/$suite-desktop.png"
+    # The surface is the only thing in the 3D view that has more red than blue.
+    local share
+    share=$(convert "$pictures/$suite-desktop.png" -crop 415x640+500+115 -fx 'r>b+0.15' -format '%[fx:round(100*mean)]' info:)
+    ((share >= 5)) || fail "no tumour is in the 3D view: $pictures/$suite-desktop.png"
+    echo "The screen, with $colours colours and $share % of the 3D view on the tumour: $pictures/$suite-desktop.png"
   else
     echo "!! ImageMagick is not installed: the screen was not looked at"
   fi
