@@ -52,12 +52,7 @@ as_user() {
 try_without_x() {
   if find "$system/usr" -name 'libX11.so*' -o -name 'libGL.so*' -o -name 'libEGL.so*' | grep .; then fail "$suite has X or OpenGL"; fi
   echo "-- no X library, no OpenGL: tidemark-cli"
-  as_user "$bin/tidemark-cli" phantom tumour --out /home/user/tumour >/dev/null
-  local -a options
-  read -r -a options < <(tidemark_phantom_options "$home/tumour/phantom.json")
-  as_user "$bin/tidemark-cli" segment /home/user/tumour/series "${options[@]}" --truth /home/user/tumour/truth.nii.gz \
-    --out /home/user/mask.nii.gz --out /home/user/surface.stl --stats /home/user/statistics.json >/dev/null
-  tidemark_phantom_result "$home/statistics.json" || fail "not the phantom's figures"
+  tidemark_try_phantom "$home" /home/user as_user "$bin/tidemark-cli" || fail "not the phantom's figures"
   for renderer in host gl; do
     as_user "$bin/tidemark-cli" render /home/user/tumour/series --mask /home/user/mask.nii.gz --fit --renderer "$renderer" \
       --out "/home/user/$renderer.png" >/dev/null

@@ -89,12 +89,7 @@ cd "$work"
 
 echo "== Segmenting a phantom with the installed tidemark-cli"
 [[ $(command -v tidemark-cli) == /usr/bin/tidemark-cli ]] || fail "tidemark-cli is not in /usr/bin"
-tidemark-cli phantom tumour --out tumour >/dev/null
-read -r -a options < <(tidemark_phantom_options tumour/phantom.json)
-tidemark-cli segment tumour/series "${options[@]}" --truth tumour/truth.nii.gz --out mask.nii.gz --out surface.stl \
-  --stats statistics.json
-for file in mask.nii.gz surface.stl; do [[ -s $file ]] || fail "$file was not written"; done
-tidemark_phantom_result statistics.json || fail "not the phantom's figures"
+tidemark_try_phantom . . tidemark-cli || fail "not the phantom's figures"
 
 echo "== What belongs to the programs"
 for page in tidemark tidemark-cli; do

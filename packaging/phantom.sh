@@ -11,3 +11,17 @@ tidemark_phantom_result() {
   echo "Volume $volume ml (117.6 are right), Dice $dice"
   awk -v dice="$dice" -v volume="$volume" 'BEGIN { exit !(dice >= 0.98 && volume > 112 && volume < 119) }'
 }
+
+# tidemark_try_phantom OUTSIDE INSIDE COMMAND...: segments the phantom by COMMAND, a tidemark-cli that sees the folder OUTSIDE
+# as INSIDE, and leaves all of it there; fails as tidemark_phantom_result does.
+tidemark_try_phantom() {
+  local outside=$1 inside=$2
+  local -a options
+  shift 2
+  "$@" phantom tumour --out "$inside/tumour" >/dev/null || return
+  read -r -a options < <(tidemark_phantom_options "$outside/tumour/phantom.json")
+  "$@" segment "$inside/tumour/series" "${options[@]}" --truth "$inside/tumour/truth.nii.gz" --out "$inside/mask.nii.gz" \
+    --out "$inside/surface.stl" --stats "$inside/statistics.json" >/dev/null || return
+  [[ -s $outside/mask.nii.gz && -s $outside/surface.stl ]] || return
+  tidemark_phantom_result "$outside/statistics.json"
+}

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # rpm.sh: an RPM of the bundle's folder (bundle.sh makes it first) in /opt/tidemark, with the programs in /usr/bin and an entry
 # in the menu. It depends on nothing but the C library. Leaves build/package/tidemark-VERSION-1.x86_64.rpm.
-# Tries it in an empty folder: what is listed is there, and tidemark-cli runs from there.
+# Tries it in an empty folder: what is listed is there, and tidemark-cli segments a phantom from there.
 set -euo pipefail
 
 tidemark_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$tidemark_root/packaging/version.sh"
+source "$tidemark_root/packaging/phantom.sh"
 out=$tidemark_root/build/package
 bundle=$out/tidemark-$tidemark_version-x86_64
 
@@ -78,6 +79,8 @@ if ((EUID == 0)); then
   rpm --root "$work/system" --initdb
   rpm --root "$work/system" --install --nodeps --nosignature "$rpm"
   "$work/system/opt/tidemark/bin/tidemark-cli" --version
+  mkdir "$work/try"
+  tidemark_try_phantom "$work/try" "$work/try" "$work/system/opt/tidemark/bin/tidemark-cli" || fail "not the phantom's figures"
   [[ $(readlink "$work/system/usr/bin/tidemark") == /opt/tidemark/bin/tidemark ]] || fail "no link in /usr/bin"
   rpm --root "$work/system" --erase --nodeps tidemark
   if [[ -e $work/system/opt/tidemark || -e $work/system/usr/bin/tidemark ]]; then fail "removing it leaves files"; fi
