@@ -6,6 +6,7 @@
 #include <QMdiSubWindow>
 #include <QSignalSpy>
 #include <QTableView>
+#include <functional>
 
 #include "engine/label_finisher.h"
 #include "imaging/regions/margin.h"
@@ -19,11 +20,39 @@
 
 namespace tidemark::test::finish_labels_story_test {
 
+namespace {
+
+using IsInside = std::function<bool(Index3)>;
+
+bool is_in_box(Index3 voxel, std::int64_t low, std::int64_t high) {
+  return std::min({voxel.x, voxel.y, voxel.z}) >= low && std::max({voxel.x, voxel.y, voxel.z}) < high;
+}
+// A block with a bubble, and a small one apart.
+bool is_block(Index3 voxel) {
+  return is_in_box(voxel, 20, 50) && !is_in_box(voxel, 30, 33);
+}
+bool is_crumb(Index3 voxel) {
+  return is_in_box(voxel, 60, 66);
+}
+
+Region region_where(const Geometry& grid, const IsInside& is_inside) {
+  Region region(VoxelRange{Index3(0), grid.size});
+  for (std::int64_t i = 0; i < grid.voxel_count(); ++i) {
+    if (is_inside(grid.voxel_at(i))) region.add(grid.voxel_at(i));
+  }
+  return region;
+}
+
+}  // namespace
+
 class FinishLabelsStoryTest : public QObject {
   Q_OBJECT
 
  private slots:
   void a_label_grows_is_smoothed_and_split();
+  void each_tool_finds_what_is_known();
+  void smoothing_rounds_a_block();
+  void a_label_is_combined_with_the_surface();
   void a_label_is_split_between_seeds();
   void a_tool_works_on_the_case_that_is_seen();
   void a_preview_follows_the_locks_of_labels();
@@ -52,6 +81,16 @@ class FinishLabelsStoryTest : public QObject {
     box->selectAll();
     QTest::keyClicks(box, text);
     QTest::keyClick(box, Qt::Key_Tab);
+  }
+  // By the first label.
+  static void paint(Desktop& desktop, const IsInside& is_inside) {
+    desktop.proxy().brush_label({1, {}, region_where(desktop.proxy().volume().geometry, is_inside)},
+                                document::Labels::Stroke::adds, document::Take::free_voxels);
+    desktop.wait_until_idle();
+  }
+  static void undo(Desktop& desktop) {
+    desktop.press(Qt::Key_Z, Qt::ControlModifier);
+    desktop.wait_until_idle();
   }
   static void make_label(Desktop& desktop, ui::LabelsPanel& panel) {
     desktop.begin(8.0);
@@ -128,6 +167,95 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   renamed.name = "Organ";
   desktop.proxy().set_label(renamed);
   QVERIFY(Desktop::wait_for([&] { return refusals.size() == 1; }));
+}
+
+void FinishLabelsStoryTest::each_tool_finds_what_is_known() {
+  const IsInside both = [](Index3 v) { return is_block(v) || is_crumb(v); };
+  const IsInside filled = [](Index3 v) { return is_in_box(v, 20, 50) || is_crumb(v); };
+  const IsInside shrunk = [](Index3 v) { return is_in_box(v, 22, 48) || is_in_box(v, 62, 64); };
+  const IsInside mirrored = [&](Index3 v) { return both({v.x, v.y, 80 - v.z}); };
+  const IsInside drawn = [](Index3 v) { return is_in_box(v, 20, 50) && v.z % 4 == 0; };
+  const IsInside between = [](Index3 v) { return is_in_box(v, 20, 50) && v.z < 49; };
+  struct Use {
+    const char* tool;
+    const char* amount;  // empty: the tool has none
+    IsInside before;
+    IsInside after;
+  };
+  const Use uses[] = {{"Keep the largest island", "", both, is_block},
+                      {"Keep the island under the cross", "", both, is_crumb},
+                      {"Remove small islands", "0.3", both, is_block},
+                      {"Fill holes", "", both, filled},
+                      {"Fill holes in slices", "", both, filled},
+                      {"Shrink", "2", filled, shrunk},
+                      {"Mirror", "", both, mirrored},
+                      {"Fill between slices", "", drawn, between}};
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  const Geometry& grid = desktop.proxy().volume().geometry;
+  QCOMPARE(grid.size, Index3(81));
+  desktop.proxy().display().change([&](engine::DisplaySettings& settings) {
+    settings.cursor_mm = grid.to_patient({63.0, 63.0, 63.0});
+  });
+  click(desktop, panel, "Add");
+  for (const Use& use : uses) {
+    paint(desktop, use.before);
+    choose(panel, "Tool", use.tool);
+    if (*use.amount != '\0') type_amount(panel, use.amount);
+    wait_for_preview(desktop, panel);
+    desktop.screenshot(QString("finish-4-%1").arg(use.tool));
+    click(desktop, panel, "Apply to labels");
+    QVERIFY2(region(desktop, 1) == region_where(grid, use.after), use.tool);
+    undo(desktop);
+    QVERIFY2(region(desktop, 1) == region_where(grid, use.before), use.tool);
+    choose(panel, "Tool", "None");
+    undo(desktop);
+  }
+}
+
+void FinishLabelsStoryTest::smoothing_rounds_a_block() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  click(desktop, panel, "Add");
+  paint(desktop, is_block);
+  const Region before = region(desktop, 1);
+  for (const char* tool : {"Smooth by the median", "Smooth and keep the volume"}) {
+    choose(panel, "Tool", tool);
+    type_amount(panel, "2.5");
+    wait_for_preview(desktop, panel);
+    click(desktop, panel, "Apply to labels");
+    const Region smooth = region(desktop, 1);
+    for (const std::int64_t corner : {20, 49}) QVERIFY2(!smooth.contains(Index3(corner)), tool);
+    QVERIFY2(smooth.contains({20, 35, 35}) && smooth.contains({35, 35, 49}), tool);  // middles of faces
+    const double kept = static_cast<double>(smooth.count()) / static_cast<double>(before.count());
+    // Voxels of a face are alike, and come or go together.
+    QVERIFY2(kept > 0.95 && kept < 1.03, qPrintable(QString("%1: %2").arg(tool).arg(kept)));
+    undo(desktop);
+    QVERIFY2(region(desktop, 1) == before, tool);
+  }
+}
+
+void FinishLabelsStoryTest::a_label_is_combined_with_the_surface() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  desktop.begin(16.0);
+  click(desktop, panel, "Add");
+  paint(desktop, is_block);
+  const Region before = region(desktop, 1);
+  const Region ball = solver::inside_region(*desktop.state().phi);
+  for (const auto& [tool, wanted] : {std::pair("Add", tidemark::united(before, ball)),
+                                     {"Subtract", tidemark::difference(before, ball)},
+                                     {"Intersect", tidemark::intersection(before, ball)}}) {
+    choose(panel, "Tool", tool);
+    wait_for_preview(desktop, panel);
+    click(desktop, panel, "Apply to labels");
+    QVERIFY2(region(desktop, 1) == wanted && !(wanted == before), tool);
+    undo(desktop);
+    QVERIFY2(region(desktop, 1) == before, tool);
+  }
 }
 
 // Two discs that touch, as organs do that were taken for one.
