@@ -82,6 +82,14 @@ class FinishLabelsStoryTest : public QObject {
     QTest::keyClicks(box, text);
     QTest::keyClick(box, Qt::Key_Tab);
   }
+  // Chosen, looked at, applied; an empty amount leaves what the tool has.
+  static void use_tool(Desktop& desktop, ui::LabelsPanel& panel, const QString& tool, const QString& amount) {
+    choose(panel, "Tool", tool);
+    if (!amount.isEmpty()) type_amount(panel, amount);
+    wait_for_preview(desktop, panel);
+    desktop.screenshot(QString("finish-4-%1").arg(tool));
+    click(desktop, panel, "Apply to labels");
+  }
   // By the first label.
   static void paint(Desktop& desktop, const IsInside& is_inside) {
     desktop.proxy().brush_label({1, {}, region_where(desktop.proxy().volume().geometry, is_inside)},
@@ -135,10 +143,8 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   click(desktop, panel, "Apply to labels");
   QCOMPARE(desktop.state().labels.size(), std::size_t{2});
   QVERIFY(tidemark::united(region(desktop, 1), region(desktop, 2)) == wanted);
-  desktop.press(Qt::Key_Z, Qt::ControlModifier);
-  desktop.wait_until_idle();
-  desktop.press(Qt::Key_Z, Qt::ControlModifier);
-  desktop.wait_until_idle();
+  undo(desktop);
+  undo(desktop);
   QVERIFY(region(desktop, 1) == before);
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
   QVERIFY(difference(solid->grab_picture(), solid_before) < 0.0005);
@@ -178,7 +184,7 @@ void FinishLabelsStoryTest::each_tool_finds_what_is_known() {
   const IsInside between = [](Index3 v) { return is_in_box(v, 20, 50) && v.z < 49; };
   struct Use {
     const char* tool;
-    const char* amount;  // empty: the tool has none
+    const char* amount;
     IsInside before;
     IsInside after;
   };
@@ -201,11 +207,7 @@ void FinishLabelsStoryTest::each_tool_finds_what_is_known() {
   click(desktop, panel, "Add");
   for (const Use& use : uses) {
     paint(desktop, use.before);
-    choose(panel, "Tool", use.tool);
-    if (*use.amount != '\0') type_amount(panel, use.amount);
-    wait_for_preview(desktop, panel);
-    desktop.screenshot(QString("finish-4-%1").arg(use.tool));
-    click(desktop, panel, "Apply to labels");
+    use_tool(desktop, panel, use.tool, use.amount);
     QVERIFY2(region(desktop, 1) == region_where(grid, use.after), use.tool);
     undo(desktop);
     QVERIFY2(region(desktop, 1) == region_where(grid, use.before), use.tool);
@@ -222,10 +224,7 @@ void FinishLabelsStoryTest::smoothing_rounds_a_block() {
   paint(desktop, is_block);
   const Region before = region(desktop, 1);
   for (const char* tool : {"Smooth by the median", "Smooth and keep the volume"}) {
-    choose(panel, "Tool", tool);
-    type_amount(panel, "2.5");
-    wait_for_preview(desktop, panel);
-    click(desktop, panel, "Apply to labels");
+    use_tool(desktop, panel, tool, "2.5");
     const Region smooth = region(desktop, 1);
     for (const std::int64_t corner : {20, 49}) QVERIFY2(!smooth.contains(Index3(corner)), tool);
     QVERIFY2(smooth.contains({20, 35, 35}) && smooth.contains({35, 35, 49}), tool);  // middles of faces
@@ -249,9 +248,7 @@ void FinishLabelsStoryTest::a_label_is_combined_with_the_surface() {
   for (const auto& [tool, wanted] : {std::pair("Add", tidemark::united(before, ball)),
                                      {"Subtract", tidemark::difference(before, ball)},
                                      {"Intersect", tidemark::intersection(before, ball)}}) {
-    choose(panel, "Tool", tool);
-    wait_for_preview(desktop, panel);
-    click(desktop, panel, "Apply to labels");
+    use_tool(desktop, panel, tool, {});
     QVERIFY2(region(desktop, 1) == wanted && !(wanted == before), tool);
     undo(desktop);
     QVERIFY2(region(desktop, 1) == before, tool);
@@ -348,9 +345,7 @@ void FinishLabelsStoryTest::each_tool_has_its_amount_after_any_other() {
   make_label(desktop, panel);
   desktop.begin(6.0);
   for (const char* before : {"Intersect", "Shrink"}) {
-    choose(panel, "Tool", before);
-    wait_for_preview(desktop, panel);
-    click(desktop, panel, "Apply to labels");
+    use_tool(desktop, panel, before, {});
     choose(panel, "Tool", "Grow");
     const auto* amount = find_seen<ui::NumberBox>(panel, "Amount");
     QVERIFY2(amount, before);
