@@ -258,9 +258,10 @@ void CasePainter::announce(ViewSlot& slot) {
 }
 
 Result<std::optional<renderer::Hit>> CasePainter::pick(const renderer::VolumeView& view,
-                                                       renderer::PictureSize size, glm::dvec2 pixel,
+                                                       renderer::PictureSize size,
+                                                       const document::Labels* labels, glm::dvec2 pixel,
                                                        document::Case& document) {
-  const auto canvas = canvas_for(view, document);
+  const auto canvas = canvas_for(view, document, labels);
   if (!canvas) return pass_on(canvas);
   return (*canvas)->renderer->pick(view, size, pixel);
 }

@@ -52,8 +52,10 @@ class CasePainter {
   // Draws the next picture of a view and announces it. Returns whether a better one can follow. Fails
   // (ErrorKind::cancelled) when stopped, (ErrorKind::capability) when the context was lost.
   Result<bool> draw(ViewSlot& slot, document::Case& document, std::stop_token stop);
+  // `labels`: those that the view shows; null: the document's.
   Result<std::optional<renderer::Hit>> pick(const renderer::VolumeView& view, renderer::PictureSize size,
-                                            glm::dvec2 pixel, document::Case& document);
+                                            const document::Labels* labels, glm::dvec2 pixel,
+                                            document::Case& document);
 
   // The current phi, read from the executor at most once until it changes.
   Result<std::shared_ptr<const solver::Field>> phi(document::Case& document);
@@ -82,8 +84,7 @@ class CasePainter {
   };
 
   // `labels` are shown in place of the case's; null: those.
-  Result<Canvas*> canvas_for(const AnyView& view, document::Case& document,
-                             const document::Labels* labels = nullptr);
+  Result<Canvas*> canvas_for(const AnyView& view, document::Case& document, const document::Labels* labels);
   Status prepare(Canvas& canvas, const std::shared_ptr<const Volume>& source, document::Case& document,
                  bool with_pages);
   [[nodiscard]] std::shared_ptr<const solver::SpeedFunction> shown_change(

@@ -274,11 +274,12 @@ void CaseProxy::go_to(std::uint64_t state) {
   post([state](CaseRunner& runner, const Progress&) { return runner.go_to(state); });
 }
 
-void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
+void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize size,
+                     std::shared_ptr<const document::Labels> labels, glm::dvec2 pixel,
                      std::function<void(std::optional<renderer::Hit>)> answer) {
-  post([view, size, pixel, answer = std::move(answer), askers = askers_](CaseRunner& runner,
-                                                                         const Progress&) -> Status {
-    const auto hit = runner.painter().pick(view, size, pixel, runner.document());
+  post([view, size, labels = std::move(labels), pixel, answer = std::move(answer), askers = askers_](
+           CaseRunner& runner, const Progress&) -> Status {
+    const auto hit = runner.painter().pick(view, size, labels.get(), pixel, runner.document());
     if (!hit) return pass_on(hit);
     askers->send([answer, found = *hit] { answer(found); });
     return {};

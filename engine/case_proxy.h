@@ -152,8 +152,9 @@ class CaseProxy : public QObject {
   [[nodiscard]] bool is_asked() const { return askers_.use_count() > 1; }
 
   // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,
-  // or never when the case is closed before.
-  void pick(const renderer::VolumeView& view, renderer::PictureSize size, glm::dvec2 pixel,
+  // or never when the case is closed before. `labels`: those that the view shows; null: the case's.
+  void pick(const renderer::VolumeView& view, renderer::PictureSize size,
+            std::shared_ptr<const document::Labels> labels, glm::dvec2 pixel,
             std::function<void(std::optional<renderer::Hit>)> answer);
 
   // The next step of a virtual page; the answer comes as pick()'s does. Nothing is changed by it.

@@ -259,7 +259,7 @@ class CaseProxyTest : public QObject {
       QVERIFY(shown.image.pixel(kSmall.width / 2, kSmall.height / 2) != shown.image.pixel(0, 0));
     }
     std::optional<renderer::Hit> hit;
-    fixture.proxy.pick(renderer::VolumeView(), kSmall, {kSmall.width / 2, kSmall.height / 2},
+    fixture.proxy.pick(renderer::VolumeView(), kSmall, nullptr, {kSmall.width / 2, kSmall.height / 2},
                        [&](std::optional<renderer::Hit> found) { hit = found; });
     fixture.wait_until_idle();
     QVERIFY(hit && hit->kind == renderer::Hit::Kind::surface);

@@ -178,7 +178,7 @@ void VolumeViewWidget::pick(QPointF position, std::function<void(std::optional<g
   const auto take = [self = QPointer(this), answer = std::move(answer)](std::optional<renderer::Hit> hit) {
     if (self) answer(hit ? std::optional(hit->patient_mm) : std::nullopt);
   };
-  proxy().pick(view(), physical_size(), {position.x() * ratio, position.y() * ratio}, take);
+  proxy().pick(view(), physical_size(), wanted_labels(), {position.x() * ratio, position.y() * ratio}, take);
 }
 
 void VolumeViewWidget::find_place(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer) {

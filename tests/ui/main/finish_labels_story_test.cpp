@@ -1,5 +1,6 @@
 // Labels are finished by tools: chosen, looked at in slices, applied and undone, by mouse and keys.
 #include <QAbstractButton>
+#include <QApplication>
 #include <QComboBox>
 #include <QLabel>
 #include <QMdiArea>
@@ -90,6 +91,17 @@ class FinishLabelsStoryTest : public QObject {
     desktop.screenshot(QString("finish-4-%1").arg(tool));
     click(desktop, panel, "Apply to labels");
   }
+  // What a right click in a view's middle finds.
+  static std::optional<glm::dvec3> place_in(ui::PictureView& view) {
+    std::optional<std::optional<glm::dvec3>> found;
+    const auto asked = connect(&view, &ui::PictureView::menu_wanted,
+                               [&](QPoint, std::optional<glm::dvec3> place_mm) { found = place_mm; });
+    QTest::mouseClick(&view, Qt::RightButton, {}, view.rect().center());
+    Desktop::wait_for([&] { return found && QApplication::activePopupWidget() != nullptr; });
+    if (QWidget* menu = QApplication::activePopupWidget()) menu->close();
+    disconnect(asked);
+    return found.value_or(std::nullopt);
+  }
   // By the first label.
   static void paint(Desktop& desktop, const IsInside& is_inside) {
     desktop.proxy().brush_label({1, {}, region_where(desktop.proxy().volume().geometry, is_inside)},
@@ -127,6 +139,15 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   QVERIFY(difference(desktop.view<ui::SliceViewWidget>("Axial")->grab_picture(), without) > 0.0005);
   const QImage solid_preview = solid->grab_picture();
   QVERIFY(difference(solid_preview, solid_before) > 0.01);
+  // A click there means what is seen: the ball that has grown, where the surface does not shine through.
+  for (const auto& [opacity, radius_mm] : {std::pair(0.4, 8.0), {1.0, 12.5}}) {
+    desktop.proxy().display().change(
+        [&](engine::DisplaySettings& settings) { settings.label_opacity = opacity; });
+    const auto place = place_in(*solid);
+    QVERIFY(place);
+    QVERIFY(std::abs(glm::distance(*place, desktop.seed_mm()) - radius_mm) < 1.0);
+  }
+  desktop.proxy().display().change([](engine::DisplaySettings& settings) { settings.label_opacity = 0.4; });
   const Region wanted = imaging::grown(before, grid, 4.5).value();
   QVERIFY(desktop.proxy().label_finisher().preview()->regions.front().region == wanted);
   click(desktop, panel, "Apply to labels");
