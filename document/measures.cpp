@@ -1,6 +1,7 @@
 #include "document/measures.h"
 
 #include <cmath>
+#include <glm/vector_relational.hpp>
 #include <numbers>
 
 #include "document/segment_meshes.h"
@@ -64,6 +65,9 @@ Result<Measures> measure(const Region& region, const Geometry& grid, const std::
   measures.diameters = *diameters;
   measures.voxels = region.count();
   measures.volume_ml = static_cast<double>(measures.voxels) * grid.voxel_volume_ml();
+  const VoxelRange reach = region.bounds();
+  measures.is_cut = glm::any(glm::lessThanEqual(reach.low, Index3(0))) ||
+                    glm::any(glm::greaterThanEqual(reach.high, grid.size));
   if (progress.cancelled()) return cancelled_error();
   progress(0.3, "surface");
   const auto surface = phi != nullptr ? mesh_of(*phi) : mesh_of(mask_of(region, grid));

@@ -35,9 +35,10 @@ struct ImageValues {
 struct Measures {
   std::int64_t voxels = 0;
   double volume_ml = 0.0;  // of the voxels
-  double area_mm2 = 0.0;   // of the surface
-  double sphericity =
-      0.0;  // the area of a ball with the surface's volume by the surface's area: 1 for a ball
+  double area_mm2 = 0.0;   // of the surface, and of the faces where the grid ends
+  bool is_cut = false;     // by the grid's end
+  // The area of a ball with the surface's volume by that area: 1 for a ball.
+  double sphericity = 0.0;
   imaging::Diameters diameters;
   std::vector<ImageValues> images;
 };

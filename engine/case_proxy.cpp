@@ -274,6 +274,11 @@ void CaseProxy::go_to(std::uint64_t state) {
   post([state](CaseRunner& runner, const Progress&) { return runner.go_to(state); });
 }
 
+// Every command ends with the state.
+void CaseProxy::translate_state() {
+  post([](CaseRunner&, const Progress&) -> Status { return {}; });
+}
+
 void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize size,
                      std::shared_ptr<const document::Labels> labels, glm::dvec2 pixel,
                      std::function<void(std::optional<renderer::Hit>)> answer) {

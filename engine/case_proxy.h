@@ -148,6 +148,9 @@ class CaseProxy : public QObject {
   // With `within_mm` the label is refined: the surface stays that near to it.
   void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
+  // The state comes once more, its texts in the language of now.
+  void translate_state();
+
   // Whether somebody waits for an answer of pick() or take_snapshot().
   [[nodiscard]] bool is_asked() const { return askers_.use_count() > 1; }
 

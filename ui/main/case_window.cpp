@@ -14,6 +14,7 @@
 #include "engine/display_json.h"
 #include "renderer/camera.h"
 #include "ui/main/case_head.h"
+#include "ui/main/dock_shares.h"
 #include "ui/main/view_menu.h"
 #include "ui/settings.h"
 #include "ui/views/slice_view.h"
@@ -113,6 +114,7 @@ CaseWindow::CaseWindow(KeptCase kept, Actions& actions, QWidget* parent)
       autosave_(std::move(kept.autosave)),
       number_(kept.number) {
   make_contents();
+  proxy_->translate_state();
 }
 
 KeptCase CaseWindow::keep() {
@@ -134,6 +136,7 @@ void CaseWindow::make_contents() {
        {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::TopDockWidgetArea}) {
     setTabPosition(area, QTabWidget::North);
   }
+  new DockShares(*this);
   auto* head = new CaseHead;
   setMenuWidget(head);
   head->set_case(this);

@@ -45,7 +45,8 @@ MeasureControls::MeasureControls(QWidget* parent) : CaseWidget(parent) {
                                           "angles to it: the two of RECIST."));
   longest_ = figures.figure(tr("Longest"), tr("The longest diameter in any direction."));
   reach_ = figures.figure(tr("Reach"), tr("How far it reaches along its three main axes."));
-  area_ = figures.figure(tr("Surface area"), tr("The area of its surface."));
+  area_ = figures.figure(tr("Surface area"),
+                         tr("The area of its surface, and of the faces where the study ends."));
   sphericity_ = figures.figure(tr("Sphericity"), tr("1 for a ball, less for any other form."));
   image_ = figures.choice(tr("Values of"), tr("The image whose values inside are listed."));
   connect(image_, &QComboBox::activated, this, &MeasureControls::fill_values);
@@ -95,9 +96,9 @@ void MeasureControls::show_measures(const std::shared_ptr<const document::Measur
     in_slice_->setText(times({number(d.in_slice.length_mm()), mm(d.across.length_mm())}));
     longest_->setText(mm(d.longest.length_mm()));
     reach_->setText(times({number(d.reach_mm.x), number(d.reach_mm.y), mm(d.reach_mm.z)}));
-    // The surface's as it stands above: as the solver measures it.
-    const bool of_surface = proxy() && region() == document::kTheSurface;
-    const double area_mm2 = of_surface ? proxy()->state().surface.surface_mm2 : measures->area_mm2;
+    // As the solver measures it, which stands above, but where the study's end cuts the surface.
+    const bool as_above = proxy() && region() == document::kTheSurface && !measures->is_cut;
+    const double area_mm2 = as_above ? proxy()->state().surface.surface_mm2 : measures->area_mm2;
     area_->setText(number_text(area_mm2, 0, tr("mm²")));
     sphericity_->setText(number_text(measures->sphericity, 3));
     for (const document::ImageValues& image : measures->images)

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "ui/views/mark_drags.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
 
@@ -38,7 +39,7 @@ void SphereDrag::release() {
 }
 
 QString SphereDrag::text() const {
-  return QCoreApplication::translate("SphereDrag", "radius %1 mm").arg(radius_mm_, 0, 'f', 1);
+  return QCoreApplication::translate("SphereDrag", "radius %1 mm").arg(number_text(radius_mm_, 1));
 }
 
 StrokeDrag::StrokeDrag(DragView view, const Pointer& pressed, solver::Brush brush)

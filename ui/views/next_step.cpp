@@ -6,6 +6,7 @@
 #include <QPainter>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -81,7 +82,6 @@ NextStep::NextStep(engine::CaseProxy& proxy, QWidget& view)
   connect(place, &QPushButton::clicked, this, &NextStep::place_wanted);
   column->addWidget(text);
   column->addWidget(place, 0, Qt::AlignHCenter);
-  hint_->setFixedWidth(kHintWidth);
   connect(play_, &PlayButton::clicked, this, [this] {
     view_.setFocus();  // the button goes
     // A drag turns the 3D view from now on, and no click adds a sphere by accident.
@@ -113,11 +113,12 @@ void NextStep::follow() {
 }
 
 void NextStep::move_into_view() {
+  hint_->setFixedWidth(std::min(kHintWidth, view_.width()));
   adjustSize();
   // A surface or labels are seen in the middle.
   const double height = play_->isHidden() && !proxy_.state().label_voxels ? 0.5 : 0.75;
   QRect place(QPoint(), size());
-  place.moveCenter({view_.width() / 2, static_cast<int>(height * view_.height())});
+  place.moveCenter({view_.rect().center().x(), static_cast<int>(height * view_.height())});
   setGeometry(place);
 }
 

@@ -15,11 +15,15 @@ double reach_mm(const Geometry& geometry) {
   return 1.1 * std::min({spacing.x, spacing.y, spacing.z});
 }
 
-void set_speed(engine::CaseProxy& proxy, const engine::ValueProbe::Spread& values, std::uint64_t gesture) {
+double range_of(const engine::CaseProxy& proxy, const engine::ValueProbe::Spread& values) {
   const engine::SourceSummary& summary = proxy.summary();
+  return std::max(values.deviation, engine::least_probed_range(summary.low, summary.high));
+}
+
+void set_speed(engine::CaseProxy& proxy, const engine::ValueProbe::Spread& values, std::uint64_t gesture) {
   solver::Parameters parameters = proxy.parameters();
   parameters.target = values.mean;
-  parameters.range = std::max(values.deviation, engine::least_probed_range(summary.low, summary.high));
+  parameters.range = range_of(proxy, values);
   proxy.set_parameters(parameters, gesture);
 }
 
@@ -62,7 +66,8 @@ void probe_speed_at(engine::CaseProxy& proxy, glm::dvec3 place_mm) {
 QString SpeedProbeDrag::text() const {
   const engine::ValueProbe::Spread values = probe().values();
   return tr("T %1   ε %2   (%3 voxels)", nullptr, form_of(probe().count()))
-      .arg(number_text(values.mean, 1), number_text(values.deviation, 1), count_text(probe().count()));
+      .arg(number_text(values.mean, 1), number_text(range_of(proxy(), values), 1),
+           count_text(probe().count()));
 }
 
 TransferProbeDrag::TransferProbeDrag(DragView view, const Pointer& pressed)

@@ -19,6 +19,7 @@ class DockingStoryTest : public QObject {
   void every_layout_shows_its_views();
   void a_view_is_maximised_by_a_double_click_and_back();
   void a_closed_view_comes_back();
+  void views_keep_their_shares_of_a_window();
   void a_session_brings_back_all_views_data();
   void a_session_brings_back_all_views();
   void a_panel_rests_behind_a_tab_and_keeps_its_size();
@@ -40,6 +41,38 @@ QList<QImage> DockingStoryTest::pictures(ui::CaseWindow& window) {
   QList<QImage> pictures;
   for (ui::PictureView* view : window.views()) pictures << view->grab_picture();
   return pictures;
+}
+
+void DockingStoryTest::views_keep_their_shares_of_a_window() {
+  Desktop desktop(solver::ExecutorKind::host, {1280, 800});
+  auto* first = desktop.open_phantom("sphere");
+  const auto shares = [&] {
+    desktop.wait_until_idle();
+    QList<QPointF> shares;
+    for (ui::PictureView* view : visible(*first))
+      shares << QPointF(double(view->width()) / first->width(), double(view->height()) / first->height());
+    return shares;
+  };
+  const QList<QPointF> before = shares();
+  QCOMPARE(before.size(), qsizetype{3});
+  // Beside a second one it has half of the room, and what is written over 3D stays inside.
+  auto* second = desktop.open_phantom("dumbbell");
+  desktop.window().bring_to_front(*first);
+  desktop.wait_until_idle();
+  desktop.screenshot("docking-two-cases");
+  QVERIFY(first->width() < 500);
+  auto* solid = desktop.view<ui::VolumeViewWidget>();
+  auto* hint = seen<QAbstractButton>(*solid, "Sphere tool")->parentWidget();
+  QVERIFY(solid->rect().contains(QRect(hint->mapTo(solid, QPoint()), hint->size())));
+  second->parentWidget()->close();
+  QVERIFY(Desktop::wait_for([&] { return first->width() > 700; }));
+  const QList<QPointF> after = shares();
+  QCOMPARE(after.size(), before.size());
+  for (qsizetype n = 0; n < before.size(); ++n) {
+    const QPointF change = after[n] - before[n];
+    QVERIFY2(std::abs(change.x()) < 0.03 && std::abs(change.y()) < 0.03,
+             qPrintable(QStringLiteral("%1: %2, %3").arg(n).arg(change.x()).arg(change.y())));
+  }
 }
 
 void DockingStoryTest::a_session_brings_back_all_views_data() {

@@ -99,6 +99,8 @@ class LanguagesStoryTest : public QObject {
     const auto camera = first->display().settings().camera;
     first->play();
     QVERIFY(Desktop::wait_for([&] { return first->state().step > 3; }, kPatience));
+    const QString undo_text = second->state().undo_text;
+    QVERIFY(!undo_text.isEmpty());
 
     desktop.speak("Deutsch");
     QCOMPARE(desktop.menu(0), QStringLiteral("Datei"));
@@ -112,6 +114,7 @@ class LanguagesStoryTest : public QObject {
     QVERIFY(now[0]->linked() && now[1]->linked());
     QVERIFY(desktop.window().actions().lock_step->isChecked());
     QVERIFY(first->in_lock_step() && second->in_lock_step());
+    QVERIFY(Desktop::wait_for([&] { return second->state().undo_text != undo_text; }, kPatience));
     QCOMPARE(now[0]->views().size(), views);
     QCOMPARE(first->display().settings().camera.azimuth, camera.azimuth);
     QVERIFY(first->state().modified);

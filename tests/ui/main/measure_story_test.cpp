@@ -19,6 +19,7 @@ class MeasureStoryTest : public QObject {
 
  private slots:
   void a_surface_is_measured_and_its_diameters_are_drawn();
+  void area_and_sphericity_are_of_one_form();
   void measures_are_of_the_case_and_the_surface_that_are_seen();
 
  private:
@@ -38,6 +39,9 @@ class MeasureStoryTest : public QObject {
   static bool wait_for_measures(QWidget& panel) {
     return Desktop::wait_for([&] { return find_seen<QAbstractButton>(panel, "Draw diameters") != nullptr; });
   }
+  static double first_number(const QString& text) {
+    return QLocale().toDouble(text.section(QRegularExpression("[\\s\\x{a0}]"), 0, 0));
+  }
   static const std::vector<engine::Measurement>& lines(Desktop& desktop) {
     return desktop.proxy().display().settings().measurements;
   }
@@ -54,9 +58,6 @@ void MeasureStoryTest::a_surface_is_measured_and_its_diameters_are_drawn() {
   // A ball of 20 mm; its voxels are not finer than this.
   const glm::dvec3 spacing = desktop.proxy().volume().geometry.spacing_mm;
   const double voxel_mm = std::max({spacing.x, spacing.y, spacing.z});
-  const auto first_number = [](const QString& text) {
-    return QLocale().toDouble(text.section(QRegularExpression("[\\s\\x{a0}]"), 0, 0));
-  };
   const double longest = first_number(seen<QLabel>(panel, "Longest")->text());
   QVERIFY2(std::abs(longest - 20.0) <= voxel_mm, qPrintable(QString::number(longest)));
   QVERIFY(first_number(seen<QLabel>(panel, "Sphericity")->text()) > 0.95);
@@ -85,6 +86,30 @@ void MeasureStoryTest::a_surface_is_measured_and_its_diameters_are_drawn() {
   const glm::dvec3 away = before.points_mm[0] + glm::dvec3(0.0, -14.0, 0.0);
   Desktop::drag(*axial, {away, away + glm::dvec3(4.0, 0.0, 0.0), away + glm::dvec3(8.0, 0.0, 0.0)});
   QCOMPARE(lines(desktop).size(), std::size_t{4});
+}
+
+// Half a ball, whose other half lies beyond the study: its cut face belongs to both or to none.
+void MeasureStoryTest::area_and_sphericity_are_of_one_form() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::StatisticsPanel& panel = *shown_panel(desktop);
+  const glm::dvec3 middle(desktop.proxy().volume().geometry.size / std::int64_t{2});
+  const glm::dvec3 place = desktop.proxy().volume().geometry.to_patient({middle.x, middle.y, -0.5});
+  constexpr double kRadius = 15.0;
+  desktop.proxy().paint({place, kRadius}, solver::Brush::add, engine::CaseProxy::new_gesture());
+  desktop.wait_until_idle();
+  click(desktop, panel, "Measure");
+  QVERIFY(wait_for_measures(panel));
+  const double curved = 2.0 * std::numbers::pi * kRadius * kRadius;
+  const double volume = 2.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3);
+  const double whole = 1.5 * curved;
+  const auto is_near = [](double is, double wanted) { return std::abs(is / wanted - 1.0) < 0.05; };
+  QVERIFY(is_near(desktop.state().surface.surface_mm2, curved));
+  const auto* area = seen<QLabel>(panel, "Surface area");
+  QVERIFY2(is_near(first_number(area->text().remove(QLocale().groupSeparator())), whole),
+           qPrintable(area->text()));
+  QVERIFY(is_near(first_number(seen<QLabel>(panel, "Sphericity")->text()),
+                  std::cbrt(36.0 * std::numbers::pi * volume * volume) / whole));
 }
 
 void MeasureStoryTest::measures_are_of_the_case_and_the_surface_that_are_seen() {

@@ -1,0 +1,34 @@
+// The docks' shares of a window, which they keep when the window gets another size.
+#pragma once
+
+#include <QHash>
+#include <QMainWindow>
+#include <QTimer>
+
+namespace tidemark::ui {
+
+// Qt gives and takes room in the order of docks: in a window that became small and large again, the first
+// dock has most of it.
+class DockShares : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit DockShares(QMainWindow& window);
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void settle();  // once windows and docks have their sizes
+  [[nodiscard]] QList<QDockWidget*> docks() const;
+  void note();
+  void restore();
+
+  QMainWindow& window_;
+  QTimer settling_;
+  QSize settled_;                          // of the window, at last
+  bool restoring_ = false;                 // what docks become is no wish of the user
+  QSize noted_;                            // of the window when the user gave the docks their sizes
+  QHash<QDockWidget*, QSize> dock_sizes_;  // then
+};
+
+}  // namespace tidemark::ui
