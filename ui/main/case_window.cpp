@@ -136,7 +136,7 @@ void CaseWindow::make_contents() {
        {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::TopDockWidgetArea}) {
     setTabPosition(area, QTabWidget::North);
   }
-  new DockShares(*this);
+  shares_ = new DockShares(*this);
   auto* head = new CaseHead;
   setMenuWidget(head);
   head->set_case(this);
@@ -309,16 +309,14 @@ void CaseWindow::arrange(ViewLayout layout) {
                                             [&](QDockWidget* dock) { return shown.contains(dock); });
   qDeleteAll(unused, docks_.end());
   docks_.erase(unused, docks_.end());
-  const int whole = std::max(width(), 600);
-  const int high = std::max(height(), 400);
-  if (layout == ViewLayout::one_three) {
-    resizeDocks({shown[0], shown[1]}, {2 * whole / 3, whole / 3}, Qt::Horizontal);
-    resizeDocks({shown[1], shown[2], shown[3]}, {high / 3, high / 3, high / 3}, Qt::Vertical);
-  } else if (shown.size() > 2) {
-    resizeDocks({shown[0], shown[1]}, {whole / 2, whole / 2}, Qt::Horizontal);
-    resizeDocks({shown[0], shown[2]}, {high / 2, high / 2}, Qt::Vertical);
-    if (layout == ViewLayout::two_two) resizeDocks({shown[1], shown[3]}, {high / 2, high / 2}, Qt::Vertical);
+  DockShares::Shares shares;
+  for (QDockWidget* dock : shown) {
+    if (layout == ViewLayout::one_three)
+      shares[dock] = dock == shown[0] ? QSizeF(2.0 / 3.0, 1.0) : QSizeF(1.0 / 3.0, 1.0 / 3.0);
+    else if (layout != ViewLayout::single)
+      shares[dock] = {0.5, layout == ViewLayout::paper && dock == shown[1] ? 1.0 : 0.5};
   }
+  shares_->set(shares);
   active_ = view_of(shown.front());
 }
 
@@ -420,6 +418,7 @@ void CaseWindow::show_views(const QByteArray& arrangement) {
     docks_made_ = std::max(docks_made_, numbers[i]);
     addDockWidget(Qt::LeftDockWidgetArea, make_dock(static_cast<ViewKind>(kinds[i]), numbers[i]));
   }
+  shares_->forget();
   if (!restoreState(state, kLayoutVersion)) arrange(layout_);
 }
 

@@ -13,6 +13,7 @@ class QDockWidget;
 
 namespace tidemark::ui {
 
+class DockShares;
 class PictureView;
 class ViewBar;
 
@@ -109,6 +110,7 @@ class CaseWindow : public QMainWindow {
   Actions& actions_;
   std::unique_ptr<engine::CaseAutosave> autosave_;
   QList<QDockWidget*> docks_;
+  DockShares* shares_ = nullptr;
   int number_ = 1;
   bool linked_ = false;
   QString difference_;

@@ -12,6 +12,16 @@ DockShares::DockShares(QMainWindow& window) : QObject(&window), window_(window) 
   connect(&settling_, &QTimer::timeout, this, &DockShares::settle);
 }
 
+void DockShares::set(const Shares& shares) {
+  shares_ = shares;
+  settled_ = {};
+  settling_.start();
+}
+
+void DockShares::forget() {
+  shares_.clear();
+}
+
 bool DockShares::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ChildAdded && watched == &window_)
     static_cast<QChildEvent*>(event)->child()->installEventFilter(this);
@@ -21,7 +31,7 @@ bool DockShares::eventFilter(QObject* watched, QEvent* event) {
 
 void DockShares::settle() {
   if (!window_.isVisible()) return;
-  if (std::exchange(settled_, window_.size()) != window_.size() && !noted_.isEmpty()) {
+  if (std::exchange(settled_, window_.size()) != window_.size() && !shares_.isEmpty()) {
     restoring_ = true;
     return restore();
   }
@@ -38,9 +48,11 @@ QList<QDockWidget*> DockShares::docks() const {
 }
 
 void DockShares::note() {
-  noted_ = window_.size();
-  dock_sizes_.clear();
-  for (QDockWidget* dock : docks()) dock_sizes_[dock] = dock->size();
+  shares_.clear();
+  for (QDockWidget* dock : docks()) {
+    shares_[dock] = {static_cast<double>(dock->width()) / window_.width(),
+                     static_cast<double>(dock->height()) / window_.height()};
+  }
 }
 
 void DockShares::restore() {
@@ -48,11 +60,11 @@ void DockShares::restore() {
   QList<int> widths;
   QList<int> heights;
   for (QDockWidget* dock : docks()) {
-    const auto size = dock_sizes_.constFind(dock);
-    if (size == dock_sizes_.cend()) continue;
+    const auto share = shares_.constFind(dock);
+    if (share == shares_.cend()) continue;
     known << dock;
-    widths << size->width() * window_.width() / noted_.width();
-    heights << size->height() * window_.height() / noted_.height();
+    widths << qRound(share->width() * window_.width());
+    heights << qRound(share->height() * window_.height());
   }
   window_.resizeDocks(known, widths, Qt::Horizontal);
   window_.resizeDocks(known, heights, Qt::Vertical);

@@ -13,7 +13,12 @@ class DockShares : public QObject {
   Q_OBJECT
 
  public:
+  using Shares = QHash<QDockWidget*, QSizeF>;  // of the window's width and height
+
   explicit DockShares(QMainWindow& window);
+
+  void set(const Shares& shares);
+  void forget();  // the docks keep what they are about to get
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -24,11 +29,10 @@ class DockShares : public QObject {
   void restore();
 
   QMainWindow& window_;
+  Shares shares_;
   QTimer settling_;
-  QSize settled_;                          // of the window, at last
-  bool restoring_ = false;                 // what docks become is no wish of the user
-  QSize noted_;                            // of the window when the user gave the docks their sizes
-  QHash<QDockWidget*, QSize> dock_sizes_;  // then
+  QSize settled_;           // of the window, at last
+  bool restoring_ = false;  // what docks become is no wish of the user
 };
 
 }  // namespace tidemark::ui
