@@ -309,12 +309,15 @@ void CaseWindow::arrange(ViewLayout layout) {
                                             [&](QDockWidget* dock) { return shown.contains(dock); });
   qDeleteAll(unused, docks_.end());
   docks_.erase(unused, docks_.end());
+  constexpr double kBesideVolume = 0.55;  // the speed map's bar has room for T and epsilon at 1280 pixels
   DockShares::Shares shares;
   for (QDockWidget* dock : shown) {
     if (layout == ViewLayout::one_three)
       shares[dock] = dock == shown[0] ? QSizeF(2.0 / 3.0, 1.0) : QSizeF(1.0 / 3.0, 1.0 / 3.0);
-    else if (layout != ViewLayout::single)
-      shares[dock] = {0.5, layout == ViewLayout::paper && dock == shown[1] ? 1.0 : 0.5};
+    else if (layout == ViewLayout::two_two)
+      shares[dock] = {0.5, 0.5};
+    else if (layout == ViewLayout::paper)
+      shares[dock] = dock == shown[1] ? QSizeF(1.0 - kBesideVolume, 1.0) : QSizeF(kBesideVolume, 0.5);
   }
   shares_->set(shares);
   active_ = view_of(shown.front());
