@@ -309,7 +309,7 @@ void CaseWindow::arrange(ViewLayout layout) {
                                             [&](QDockWidget* dock) { return shown.contains(dock); });
   qDeleteAll(unused, docks_.end());
   docks_.erase(unused, docks_.end());
-  constexpr double kBesideVolume = 0.55;  // the speed map's bar has room for T and epsilon at 1280 pixels
+  constexpr double kBesideVolume = 0.55;  // from 1300 pixels on, the speed map's bar then shows T and epsilon
   DockShares::Shares shares;
   for (QDockWidget* dock : shown) {
     if (layout == ViewLayout::one_three)
