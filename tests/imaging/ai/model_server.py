@@ -7,6 +7,7 @@ import array
 import base64
 import gzip
 import http.server
+import itertools
 import json
 import pathlib
 import re
@@ -16,6 +17,7 @@ import urllib.parse
 import uuid
 
 TOLERANCE = 0.2  # of the range of values
+NUMBERS = itertools.count()  # of the requests kept, which come at the same time, too
 DTYPES = {2: "B", 4: "h", 8: "i", 16: "f", 64: "d", 512: "H"}
 UINT8, FLOAT32 = (2, 8, "B"), (16, 32, "f")
 
@@ -168,8 +170,7 @@ def form_of(request):
 def keep(request, body):
     if len(sys.argv) > 2:
         folder = pathlib.Path(sys.argv[2])
-        number = len(list(folder.iterdir()))
-        (folder / f"{number:03}").write_bytes(f"{request.requestline}\n{request.headers}\n".encode() + body)
+        (folder / f"{next(NUMBERS):03}").write_bytes(f"{request.requestline}\n{request.headers}\n".encode() + body)
 
 
 def say(request, status, answer):
