@@ -70,6 +70,14 @@ glm::dmat4 Camera::voxel_from_view(const Geometry& geometry, double aspect) cons
   return voxel_from_axes(geometry, focus, {right() * half * aspect, up() * half, into * depth});
 }
 
+Camera Camera::turned_to(double azimuth, double elevation, const Geometry& geometry, double aspect) const {
+  Camera camera = *this;
+  camera.azimuth = azimuth;
+  camera.elevation = elevation;
+  camera.zoom *= camera.half_height_mm(geometry, aspect) / half_height_mm(geometry, aspect);
+  return camera;
+}
+
 Camera Camera::on(const Box& box, const Geometry& geometry, double aspect) const {
   Camera camera = *this;
   camera.focus_mm = 0.5 * (box.low + box.high);

@@ -21,7 +21,7 @@ struct Box {
 struct Camera {
   double azimuth = 0.0;
   double elevation = 0.0;
-  double zoom = 1.0;                                  // 1: the whole volume is in view from every side
+  double zoom = 1.0;                                  // 1: the whole volume fits, seen from this side
   std::optional<glm::dvec3> focus_mm = std::nullopt;  // the picture's middle; none: the volume's middle
 
   bool operator==(const Camera&) const = default;
@@ -33,6 +33,9 @@ struct Camera {
   [[nodiscard]] glm::dmat4 voxel_from_view(const Geometry& geometry, double aspect) const;
   // Half the picture's height, in mm.
   [[nodiscard]] double half_height_mm(const Geometry& geometry, double aspect) const;
+  // Looks from another side, at the same scale.
+  [[nodiscard]] Camera turned_to(double azimuth, double elevation, const Geometry& geometry,
+                                 double aspect) const;
   // Looks from the same side at a box, so that it fills the picture.
   [[nodiscard]] Camera on(const Box& box, const Geometry& geometry, double aspect) const;
   // Whether all of a box is in the picture.

@@ -70,16 +70,15 @@ Status check(const FilmOptions& options) {
 class Camera {
  public:
   Camera(Scene& scene, const FilmOptions& options, std::int64_t frames, imaging::GifFile& file)
-      : scene_(scene),
-        options_(options),
-        frames_(frames),
-        file_(file),
-        azimuth_(scene.views.volume.camera.azimuth) {}
+      : scene_(scene), options_(options), frames_(frames), file_(file), from_(scene.views.volume.camera) {
+    // At one scale, at which what is in view from its side is in view from all.
+    const double zoom = from_.zoom;
+    for (std::int64_t frame = 1; frame < frames; ++frame)
+      from_.zoom = std::min(from_.zoom, zoom * from_.zoom / turned(frame).zoom);
+  }
 
   Status shoot(const Progress& progress) {
-    // A whole turn ends one picture before its beginning, so that it goes on without a halt.
-    const double share = static_cast<double>(shot_) / static_cast<double>(frames_);
-    scene_.views.volume.camera.azimuth = azimuth_ + options_.turn.value_or(0.0) * share;
+    scene_.views.volume.camera = turned(shot_);
     const auto picture = draw(scene_, options_.render, progress);
     if (!picture) return pass_on(picture);
     ++shot_;
@@ -88,11 +87,18 @@ class Camera {
   [[nodiscard]] std::int64_t shot() const { return shot_; }
 
  private:
+  [[nodiscard]] renderer::Camera turned(std::int64_t frame) const {
+    // A whole turn ends one picture before its beginning, so that it goes on without a halt.
+    const double share = static_cast<double>(frame) / static_cast<double>(frames_);
+    return from_.turned_to(from_.azimuth + options_.turn.value_or(0.0) * share, from_.elevation,
+                           scene_.source->geometry, scene_.views.size.aspect());
+  }
+
   Scene& scene_;
   const FilmOptions& options_;
   std::int64_t frames_;
   imaging::GifFile& file_;
-  double azimuth_;
+  renderer::Camera from_;
   std::int64_t shot_ = 0;
 };
 

@@ -73,8 +73,7 @@ renderer::Camera CameraFollower::on_surface(const renderer::Camera& from, double
 }
 
 bool CameraFollower::is_own() const {
-  const bool as_at_first = camera().zoom == 1.0 && !camera().focus_mm;
-  return as_at_first || camera() == own_;
+  return !camera().focus_mm || camera() == own_;
 }
 
 void CameraFollower::set(const renderer::Camera& camera) {

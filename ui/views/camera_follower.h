@@ -16,7 +16,7 @@ inline constexpr double kLeastZoom = 0.2;
 inline constexpr double kMostZoom = 40.0;
 
 // Moves what the camera looks at and its distance, never the side from which it looks. A camera that somebody
-// else has moved is left alone, until fit() or until it is as it was at first.
+// else has moved is left alone, until fit(). One that was only turned before the first surface is not moved.
 class CameraFollower : public QObject {
   Q_OBJECT
  public:

@@ -19,6 +19,20 @@ namespace {
 
 constexpr double kDegreesPerPixel = 0.4;
 
+// About the middle of the picture, which stays there from now on.
+void zoom_to(double zoom, renderer::Camera& camera, const Geometry& geometry) {
+  camera.zoom = std::clamp(zoom, kLeastZoom, kMostZoom);
+  if (!camera.focus_mm) camera.focus_mm = renderer::middle_of(geometry);
+}
+
+// Never over the head or under the feet.
+renderer::Camera turned_by(double azimuth, double elevation, const renderer::Camera& camera,
+                           const Geometry& geometry, QSizeF view) {
+  return camera.turned_to(std::remainder(camera.azimuth + azimuth, 360.0),
+                          std::clamp(camera.elevation + elevation, -90.0, 90.0), geometry,
+                          view.width() / view.height());
+}
+
 // Turns the camera around its focus.
 class RotateDrag : public Drag {
  public:
@@ -27,9 +41,8 @@ class RotateDrag : public Drag {
   }
   void move(const Pointer& pointer) override {
     const QPointF way = pointer.position - from_;
-    renderer::Camera camera = camera_;
-    camera.azimuth = std::remainder(camera_.azimuth - kDegreesPerPixel * way.x(), 360.0);
-    camera.elevation = std::clamp(camera_.elevation + kDegreesPerPixel * way.y(), -90.0, 90.0);
+    const renderer::Camera camera = turned_by(-kDegreesPerPixel * way.x(), kDegreesPerPixel * way.y(),
+                                              camera_, proxy().volume().geometry, view().size);
     display().change([&](engine::DisplaySettings& settings) { settings.camera = camera; });
   }
 
@@ -62,9 +75,10 @@ class CameraZoomDrag : public Drag {
     zoom_ = display().settings().camera.zoom;
   }
   void move(const Pointer& pointer) override {
-    const double zoom =
-        std::clamp(zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0), kLeastZoom, kMostZoom);
-    display().change([&](engine::DisplaySettings& settings) { settings.camera.zoom = zoom; });
+    const double zoom = zoom_ * std::exp((from_.y() - pointer.position.y()) / 150.0);
+    display().change([&](engine::DisplaySettings& settings) {
+      zoom_to(zoom, settings.camera, proxy().volume().geometry);
+    });
   }
 
  private:
@@ -220,7 +234,7 @@ void VolumeViewWidget::scroll(int clicks) {
 
 void VolumeViewWidget::zoom(double factor, QPointF /*about*/) {
   display().change([&](engine::DisplaySettings& settings) {
-    settings.camera.zoom = std::clamp(settings.camera.zoom * factor, kLeastZoom, kMostZoom);
+    zoom_to(settings.camera.zoom * factor, settings.camera, proxy().volume().geometry);
   });
 }
 
@@ -240,8 +254,8 @@ void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
         settings.clip.normal = glm::normalize(turned);
         settings.clip.offset_mm = glm::dot(pivot, settings.clip.normal);
       } else {
-        settings.camera.azimuth = std::remainder(settings.camera.azimuth + azimuth, 360.0);
-        settings.camera.elevation = std::clamp(settings.camera.elevation + elevation, -90.0, 90.0);
+        settings.camera =
+            turned_by(azimuth, elevation, settings.camera, proxy().volume().geometry, QSizeF(size()));
       }
     });
   };

@@ -82,6 +82,12 @@ void CameraStoryTest::a_camera_that_was_taken_stays() {
   Desktop::drag(static_cast<QWidget&>(*view), {free, free + QPoint(40, 10)});
   const renderer::Camera turned = desktop.proxy().display().settings().camera;
   QVERIFY(turned.azimuth != begun.azimuth);
+  // At the same scale: a turn makes nothing larger or smaller.
+  const Geometry& geometry = desktop.proxy().volume().geometry;
+  const double aspect = static_cast<double>(view->width()) / view->height();
+  QVERIFY(turned.zoom != begun.zoom);
+  QVERIFY(std::abs(turned.half_height_mm(geometry, aspect) / begun.half_height_mm(geometry, aspect) - 1.0) <
+          1e-9);
   // Nearer, so that the surface grows out of the picture.
   QWheelEvent wheel(middle, view->mapToGlobal(middle), {}, {0, 120 * 8}, Qt::NoButton, {}, Qt::NoScrollPhase,
                     false);
