@@ -1,6 +1,7 @@
 #include "ui/widgets/number_box.h"
 
 #include <QHelpEvent>
+#include <QKeyEvent>
 #include <QLineEdit>
 #include <QPainter>
 #include <QSignalBlocker>
@@ -24,6 +25,11 @@ bool is_point(QChar c) {
 // What other programs put between groups of digits.
 bool is_group_separator(QChar c) {
   return c.isSpace() || c == u'\'' || c == u'’';
+}
+
+bool is_letter(const QKeyEvent& key) {
+  const QString typed = key.text();
+  return (key.modifiers() & ~Qt::ShiftModifier) == 0 && typed.size() == 1 && typed.front().isLetter();
 }
 
 // The typed text as C writes numbers; nothing where it holds something that is no part of any number.
@@ -51,8 +57,12 @@ NumberBox::NumberBox(QWidget* parent) : QDoubleSpinBox(parent) {
   setKeyboardTracking(false);
 }
 
+bool NumberBox::is_being_typed() const {
+  return hasFocus() && (cleanText() != textFromValue(value()) || !problem().isEmpty());
+}
+
 void NumberBox::show_unless_typed(double value) {
-  if (hasFocus() && (cleanText() != textFromValue(this->value()) || !problem().isEmpty())) return;
+  if (is_being_typed()) return;
   const QSignalBlocker quiet(this);
   setValue(value);
 }
@@ -139,6 +149,11 @@ void NumberBox::fixup(QString& text) const {
 }
 
 bool NumberBox::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && !is_being_typed() &&
+      is_letter(*static_cast<const QKeyEvent*>(event))) {
+    event->ignore();
+    return false;
+  }
   if (event->type() != QEvent::ToolTip || problem().isEmpty()) return QDoubleSpinBox::event(event);
   QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), problem(), this);
   return true;

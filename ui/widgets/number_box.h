@@ -7,7 +7,7 @@ namespace tidemark::ui {
 
 // A point and a comma both stand before the digits behind the point, whatever the user's language; digits are
 // not grouped. What is no number, or none that the box can hold as it was typed, changes nothing: it stays,
-// marked, until something else is typed.
+// marked, until something else is typed. While nothing is typed a letter is the window's, as in its views.
 class NumberBox : public QDoubleSpinBox {
   Q_OBJECT
  public:
@@ -36,6 +36,7 @@ class NumberBox : public QDoubleSpinBox {
     double value = 0.0;
   };
   [[nodiscard]] Typed read(const QString& typed) const;
+  [[nodiscard]] bool is_being_typed() const;
   [[nodiscard]] QString typed_in(const QString& text) const;  // without prefix and suffix
   [[nodiscard]] bool can_become_larger_only(double value) const;
 

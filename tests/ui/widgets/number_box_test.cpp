@@ -1,7 +1,9 @@
 // Numbers as they are typed, whatever the language.
 #include "ui/widgets/number_box.h"
 
+#include <QApplication>
 #include <QLineEdit>
+#include <QShortcut>
 #include <QSignalSpy>
 #include <filesystem>
 #include <fstream>
@@ -152,6 +154,23 @@ class NumberBoxTest : public QObject {
     QTest::keyClick(box_, Qt::Key_Backspace);
     leave();
     QCOMPARE(box_->cleanText(), QStringLiteral("7,000"));
+    QVERIFY(!is_marked());
+  }
+
+  // As after a number was typed and Return pressed: P plays.
+  void a_letter_is_the_windows_while_nothing_is_typed() {
+    make("de_DE");
+    int played = 0;
+    auto* shortcut = new QShortcut(QKeySequence("P"), window_.get());
+    connect(shortcut, &QShortcut::activated, this, [&played] { ++played; });
+    QApplication::setActiveWindow(window_.get());
+    type("12,5");
+    QTest::keyClick(box_, Qt::Key_P);  // as the end of a unit
+    QCOMPARE(played, 0);
+    QTest::keyClick(box_, Qt::Key_Return);
+    QTest::keyClick(box_, Qt::Key_P);
+    QCOMPARE(played, 1);
+    QCOMPARE(box_->value(), 12.5);
     QVERIFY(!is_marked());
   }
 
