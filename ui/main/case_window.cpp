@@ -205,7 +205,7 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind, int number) {
   dock->setProperty(kKind, static_cast<int>(kind));
   dock->setWidget(view);
   auto* bar = new ViewBar(*proxy_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
-  if (kind == ViewKind::speed) bar->add_choice(new SpeedMapChoice(*proxy_));
+  if (kind == ViewKind::speed) bar->add_choice(new SpeedMapChoice(*proxy_, bar));
   dock->setTitleBarWidget(bar);
   connect(bar, &ViewBar::close_wanted, dock, &QDockWidget::close);
   connect(bar, &ViewBar::float_wanted, dock, [dock] { dock->setFloating(!dock->isFloating()); });

@@ -13,6 +13,7 @@ SpeedMapChoice::SpeedMapChoice(engine::CaseProxy& proxy, QWidget* parent) : QWid
   speed_ = add(tr("Speed"));
   speed_->setToolTip(tr("Orange: the surface grows here. Blue and hatched: it shrinks."));
   doubt_ = add(tr("Doubt"));
+  doubt_->setToolTip(tr("Bright where the examples do not settle what a voxel is: paint there next."));
   auto* group = new QButtonGroup(this);
   group->addButton(speed_);
   group->addButton(doubt_);
@@ -45,10 +46,7 @@ void SpeedMapChoice::follow() {
   const bool shows_doubt = proxy_.display().settings().speed_term == renderer::SpeedTerm::doubt;
   const bool has_doubt = proxy_.state().speed && proxy_.state().speed->has_doubt();
   (shows_doubt ? doubt_ : speed_)->setChecked(true);
-  doubt_->setEnabled(has_doubt || shows_doubt);
-  doubt_->setToolTip(has_doubt
-                         ? tr("Bright where the examples do not settle what a voxel is: paint there next.")
-                         : tr("Only a speed function that learns from examples has a doubt."));
+  setVisible(has_doubt || shows_doubt);
 }
 
 }  // namespace tidemark::ui

@@ -9,10 +9,11 @@ class QToolButton;
 
 namespace tidemark::ui {
 
+// Hidden where there is no choice: only a speed function that learns from examples has a doubt.
 class SpeedMapChoice : public QWidget {
   Q_OBJECT
  public:
-  explicit SpeedMapChoice(engine::CaseProxy& proxy, QWidget* parent = nullptr);
+  SpeedMapChoice(engine::CaseProxy& proxy, QWidget* parent);
 
  private:
   QToolButton* add(const QString& text);

@@ -135,7 +135,14 @@ bool ViewBar::event(QEvent* event) {
 }
 
 QSize ViewBar::minimumSizeHint() const {
-  return {std::max(kLeastTitleWidth, room_for(lasting_)), sizeHint().height()};
+  return {std::max(kLeastTitleWidth, room_for(lasting())), sizeHint().height()};
+}
+
+// Without a choice that hides itself.
+QList<QWidget*> ViewBar::lasting() const {
+  QList<QWidget*> parts = lasting_;
+  parts.removeIf([](const QWidget* part) { return part->isHidden(); });
+  return parts;
 }
 
 // With the margins at both ends.
@@ -150,7 +157,7 @@ int ViewBar::room_for(const QList<QWidget*>& parts) const {
 // T and epsilon are the tent's. The title is cut before a button goes; the evolution's leave it its words,
 // and numbers its beginning.
 void ViewBar::show_what_fits() {
-  QList<QWidget*> shown = lasting_;
+  QList<QWidget*> shown = lasting();
   bool fits = true;
   const auto show = [&](const QList<QWidget*>& parts, int beside) {
     fits = fits && room_for(shown + parts) + beside <= width();

@@ -37,6 +37,7 @@ class ViewBar : public QWidget {
                         const QString& tip);
   void follow_state();
   void show_what_fits();
+  [[nodiscard]] QList<QWidget*> lasting() const;
   [[nodiscard]] int room_for(const QList<QWidget*>& parts) const;
   void follow_tool();
   void change(double solver::Parameters::*parameter, double value);

@@ -85,10 +85,17 @@ class ViewBarTest : public QObject {
     QAction play(ui::icon(u"play"), "Play");
     QAction tool(ui::icon(u"tool-window"), "Window");
     ui::ViewBar bar(*the_case_->proxy, "Speed map", {&play}, {&tool});
-    auto* choice = new ui::SpeedMapChoice(*the_case_->proxy);
+    auto* choice = new ui::SpeedMapChoice(*the_case_->proxy, &bar);
     bar.add_choice(choice);
     bar.resize(600, 30);
     test::show(bar);
+    QVERIFY(!choice->isVisible());  // brightness alone has no doubt
+    const auto show_term = [&](renderer::SpeedTerm term) {
+      the_case_->proxy->display().change([=](engine::DisplaySettings& s) { s.speed_term = term; });
+    };
+    show_term(renderer::SpeedTerm::doubt);
+    QVERIFY(choice->isVisible());
+    const auto back = qScopeGuard([&] { show_term(renderer::SpeedTerm::data); });
     const auto parts = [&] {
       QList<QWidget*> seen = choice->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
       for (QWidget* part : bar.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
