@@ -20,6 +20,10 @@ struct VoxelRange {
   [[nodiscard]] bool empty() const { return low.x >= high.x || low.y >= high.y || low.z >= high.z; }
   // Widened by so many voxels on each side, within a grid.
   [[nodiscard]] VoxelRange widened(Index3 voxels, Index3 grid_size) const;
+  // Whether it reaches either end of a grid along an axis.
+  [[nodiscard]] bool touches_end(int axis, Index3 grid_size) const {
+    return low[axis] <= 0 || high[axis] >= grid_size[axis];
+  }
   bool operator==(const VoxelRange&) const = default;
 };
 

@@ -6,7 +6,10 @@
 
 #include "core/region.h"
 #include "document/lesson_figure_names.h"
+#include "document/segment_meshes.h"
 #include "imaging/regions/islands.h"
+#include "imaging/surface/surface.h"
+#include "solver/ball.h"
 #include "solver/distance_transform.h"
 #include "solver/inside_region.h"
 #include "solver/model.h"
@@ -28,17 +31,19 @@ Figure area(const LessonState& state, const Progress& /*progress*/) {
 
 // Of the ball, or in one slice the disc, of that volume.
 Figure radius(const LessonState& state, const Progress& /*progress*/) {
-  const double mm3 = solver::measure(state.phi).volume_ml * 1000.0;
+  const double volume_ml = solver::measure(state.phi).volume_ml;
   const Geometry& grid = state.phi.geometry;
-  if (grid.size.z == 1) return std::sqrt(mm3 / grid.spacing_mm.z / std::numbers::pi);
-  return std::cbrt(mm3 * 3.0 / (4.0 * std::numbers::pi));
+  if (grid.size.z == 1) return std::sqrt(1000.0 * volume_ml / grid.spacing_mm.z / std::numbers::pi);
+  return solver::radius_of_ball_mm(volume_ml);
 }
 
-// The area of the ball of that volume by the area: 1 for a ball (Wadell 1935).
+// With the faces where the study's end cuts the surface, as its volume is without what lies beyond.
 Figure sphericity(const LessonState& state, const Progress& /*progress*/) {
-  const solver::SurfaceStatistics is = solver::measure(state.phi);
-  if (!(is.surface_mm2 > 0.0) || state.phi.geometry.size.z == 1) return std::nullopt;
-  return std::cbrt(36.0 * std::numbers::pi * std::pow(is.volume_ml * 1000.0, 2)) / is.surface_mm2;
+  if (state.phi.geometry.size.z == 1) return std::nullopt;
+  const auto surface = mesh_of(state.phi);
+  if (!surface) return pass_on(surface);
+  const double sphericity = imaging::mesh_sphericity(*surface);
+  return sphericity > 0.0 ? std::optional(sphericity) : std::nullopt;
 }
 
 Figure bodies(const LessonState& state, const Progress& /*progress*/) {

@@ -1,8 +1,6 @@
 #include "document/measures.h"
 
 #include <cmath>
-#include <glm/vector_relational.hpp>
-#include <numbers>
 
 #include "document/segment_meshes.h"
 
@@ -10,12 +8,6 @@ namespace tidemark::document {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double sphericity_of(const imaging::Mesh& surface) {
-  const double volume_mm3 = imaging::mesh_volume_ml(surface) * 1000.0;
-  const double area_mm2 = imaging::mesh_area_mm2(surface);
-  return area_mm2 > 0.0 ? std::cbrt(std::numbers::pi * 36.0 * volume_mm3 * volume_mm3) / area_mm2 : 0.0;
-}
 
 Json point(glm::dvec3 mm) {
   return Json::array({mm.x, mm.y, mm.z});
@@ -66,14 +58,14 @@ Result<Measures> measure(const Region& region, const Geometry& grid, const std::
   measures.voxels = region.count();
   measures.volume_ml = static_cast<double>(measures.voxels) * grid.voxel_volume_ml();
   const VoxelRange reach = region.bounds();
-  measures.is_cut = glm::any(glm::lessThanEqual(reach.low, Index3(0))) ||
-                    glm::any(glm::greaterThanEqual(reach.high, grid.size));
+  for (int axis = 0; axis < 3; ++axis)
+    measures.is_cut = measures.is_cut || reach.touches_end(axis, grid.size);
   if (progress.cancelled()) return cancelled_error();
   progress(0.3, "surface");
   const auto surface = phi != nullptr ? mesh_of(*phi) : mesh_of(mask_of(region, grid));
   if (!surface) return pass_on(surface);
   measures.area_mm2 = imaging::mesh_area_mm2(*surface);
-  measures.sphericity = sphericity_of(*surface);
+  measures.sphericity = imaging::mesh_sphericity(*surface);
   for (const MeasuredImage& image : images) {
     if (progress.cancelled()) return cancelled_error();
     progress(0.6, "values");

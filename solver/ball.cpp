@@ -24,13 +24,16 @@ Result<std::optional<Ball>> ball_of(const Field& phi, double tolerance_mm, const
   glm::dvec3 sum(0.0);
   for (const glm::vec3& point : *crossings) sum += glm::dvec3(point);
   const glm::dvec3 middle = sum / static_cast<double>(crossings->size());
-  const double volume_mm3 = 1000.0 * measure(phi).volume_ml;
-  const double radius_mm = std::cbrt(volume_mm3 * 0.75 * std::numbers::inv_pi);
+  const double radius_mm = radius_of_ball_mm(measure(phi).volume_ml);
   const bool is_ball = std::all_of(crossings->begin(), crossings->end(), [&](const glm::vec3& point) {
     return std::abs(glm::distance(glm::dvec3(point), middle) - radius_mm) <= tolerance_mm;
   });
   if (!is_ball) return std::optional<Ball>();
   return std::optional(Ball{middle / phi.geometry.spacing_mm, radius_mm});
+}
+
+double radius_of_ball_mm(double volume_ml) {
+  return std::cbrt(1000.0 * volume_ml * 0.75 * std::numbers::inv_pi);
 }
 
 double volume_of_ball_ml(double radius_mm) {

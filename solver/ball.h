@@ -20,6 +20,7 @@ struct Ball {
 // (ErrorKind::cancelled).
 Result<std::optional<Ball>> ball_of(const Field& phi, double tolerance_mm, const Progress& progress = {});
 
+[[nodiscard]] double radius_of_ball_mm(double volume_ml);
 [[nodiscard]] double volume_of_ball_ml(double radius_mm);
 [[nodiscard]] double area_of_ball_mm2(double radius_mm);
 

@@ -29,9 +29,8 @@ bool touches_border(const solver::Field& phi) {
   const VoxelRange inside = solver::inside_region(phi).bounds();
   if (inside.empty()) return false;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::int64_t size = phi.geometry.size[axis];
     // An axis of few voxels has nothing but a border.
-    if (size > 2 && (inside.low[axis] == 0 || inside.high[axis] == size)) return true;
+    if (phi.geometry.size[axis] > 2 && inside.touches_end(axis, phi.geometry.size)) return true;
   }
   return false;
 }

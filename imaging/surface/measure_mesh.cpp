@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "imaging/surface/surface.h"
 
@@ -25,6 +27,12 @@ double mesh_area_mm2(const Mesh& mesh) {
     twice_area += glm::length(glm::cross(glm::dvec3(mesh.vertices[b]) - p, glm::dvec3(mesh.vertices[c]) - p));
   }
   return twice_area / 2.0;
+}
+
+double mesh_sphericity(const Mesh& mesh) {
+  const double volume_mm3 = mesh_volume_ml(mesh) * 1000.0;
+  const double area_mm2 = mesh_area_mm2(mesh);
+  return area_mm2 > 0.0 ? std::cbrt(std::numbers::pi * 36.0 * volume_mm3 * volume_mm3) / area_mm2 : 0.0;
 }
 
 bool is_closed_and_oriented(const Mesh& mesh) {

@@ -41,6 +41,8 @@ Result<Mesh> extract_surface(const PhiPages& phi);
 
 [[nodiscard]] double mesh_volume_ml(const Mesh& mesh);  // signed: > 0 when oriented outward
 [[nodiscard]] double mesh_area_mm2(const Mesh& mesh);
+// The area of the ball of its volume by its area: 1 for a ball (Wadell 1935). 0 without a surface.
+[[nodiscard]] double mesh_sphericity(const Mesh& mesh);
 
 // Whether every edge is used as often in one direction as in the other.
 [[nodiscard]] bool is_closed_and_oriented(const Mesh& mesh);

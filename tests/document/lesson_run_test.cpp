@@ -125,6 +125,18 @@ class LessonRunTest : public QObject {
     QVERIFY(!outcomes->front().holds(lesson.parts[0]));
   }
 
+  // Half a ball: its area is 3 pi r^2 with the face where the study ends.
+  void a_surface_that_the_studys_end_cuts_is_no_ball() {
+    const Json start{{"seeds", {{{"centre_mm", {40.0, 0.0, 0.0}}, {"radius_mm", 15}}}}};
+    const document::Lesson lesson =
+        lesson_of_part({{"try", {{"steps", 0}, {"start", start}}},
+                        {"measure", {{{"figure", "sphericity"}, {"low", 0.8}, {"high", 0.88}}}}});
+    const auto outcomes = carried_out(lesson);
+    QCOMPARE(failure(outcomes), QString());
+    const double sphericity = outcomes->front().figures[0].value_or(-1.0);
+    QVERIFY2(outcomes->front().holds(lesson.parts[0]), qPrintable(QString::number(sphericity)));
+  }
+
   void distances_exist_in_any_band() {
     for (const Json& band : {Json("infinite"), Json(2), Json(9)}) {
       const Json attempt{{"steps", 0}, {"parameters", {{"band", band}}}};

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "solver/ball.h"
 #include "solver/statistics.h"
-
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
 
@@ -71,8 +71,7 @@ struct Run {
     step += steps;
   }
   double radius_mm() const {
-    const double volume_mm3 = 1000.0 * solver::measure(executor->snapshot().value()).volume_ml;
-    return std::cbrt(volume_mm3 * 0.75 / M_PI);
+    return solver::radius_of_ball_mm(solver::measure(executor->snapshot().value()).volume_ml);
   }
 };
 

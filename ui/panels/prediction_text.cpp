@@ -2,9 +2,8 @@
 
 #include <QStringList>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
+#include "solver/ball.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/tr.h"
 
@@ -84,7 +83,7 @@ QString text_of_obstacle(Prediction::Obstacle obstacle) {
 }
 
 QString text_of_radius(const Prediction& prediction, const document::CurvePoint& measured) {
-  const QString radius = length_text(std::cbrt(1000.0 * measured.volume_ml * 0.75 * std::numbers::inv_pi));
+  const QString radius = length_text(solver::radius_of_ball_mm(measured.volume_ml));
   const auto predicted = prediction.radius_at(measured.step);
   if (!predicted) return tr("%1, the law has ended").arg(radius);
   return tr("%1, predicted %2").arg(radius, length_text(*predicted));

@@ -51,7 +51,7 @@ Part* part(Desktop& desktop) {
 }
 
 double radius_mm(Desktop& desktop) {
-  return std::cbrt(1000.0 * desktop.state().surface.volume_ml * 0.75 / M_PI);
+  return solver::radius_of_ball_mm(desktop.state().surface.volume_ml);
 }
 
 int pixels(ui::PictureView& view, const std::function<bool(const QColor&)>& counts) {

@@ -5,6 +5,7 @@
 
 #include "imaging/load_study.h"
 #include "imaging/phantom/phantom.h"
+#include "solver/ball.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/case_exports.h"
@@ -80,7 +81,7 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   Desktop::drag(*axial, {centre, centre + glm::dvec3(3, 0, 0), centre + glm::dvec3(kRadius, 0, 0)});
   desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
-  const double radius = std::cbrt(desktop.state().surface.volume_ml * 1000.0 * 0.75 / M_PI);
+  const double radius = solver::radius_of_ball_mm(desktop.state().surface.volume_ml);
   QVERIFY2(std::abs(radius - kRadius) < axial->mm_per_pixel() + 0.1, qPrintable(QString::number(radius)));
 
   // Play, change T in mid-run, erase while it runs.
