@@ -16,7 +16,6 @@ constexpr std::int64_t kWidth = 2 * kReach + 1;
 constexpr std::array<int, kWidth> kWeights{19, 66, 100, 66, 19};  // exp(-x^2 / (2 * 1.1^2)), of 100
 constexpr int kWhole = 270 * 270 * 270;
 constexpr int kLeast = 140;  // of 255
-constexpr std::uint8_t kAll = 255;
 
 // A page's labels with those around it, repeated beyond the volume's border.
 struct Tile {
@@ -55,7 +54,7 @@ struct Tile {
       }
     }
     constexpr int kUnit = kWhole / 255;
-    return static_cast<std::uint8_t>(std::clamp(sum / kUnit, kLeast, int{kAll}));
+    return static_cast<std::uint8_t>(std::clamp(sum / kUnit, kLeast, int{LabelVolume::kAll}));
   }
 };
 

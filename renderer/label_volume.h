@@ -14,6 +14,8 @@ namespace tidemark::renderer {
 // Keeps no copy of the voxels, and works out anew only what has changed and what is near it.
 class LabelVolume {
  public:
+  static constexpr std::uint8_t kAll = 255;  // of shares()
+
   LabelVolume() = default;
   // At first no voxel has a label, and all labels are seen.
   explicit LabelVolume(const solver::PageLayout& layout);
@@ -28,9 +30,9 @@ class LabelVolume {
   [[nodiscard]] bool has_voxels() const { return pages_.has_voxels(); }
   [[nodiscard]] const SharedSlices& voxels() const { return voxels_; }
   // For each voxel, how much of what is around it has its own label: the weight in a Gaussian of 1.1 voxels
-  // over 5 voxels an axis, 255 for all of it. Never less than a little above a half, so that where shares are
-  // equal between two voxels is never beyond the middle of either: what is one voxel thick stays. 255 in
-  // pages that hold a single label, or none.
+  // over 5 voxels an axis, kAll for all of it. Never less than a little above a half, so that where shares
+  // are equal between two voxels is never beyond the middle of either: what is one voxel thick stays. kAll in
+  // pages that hold a single label, or none. Where it is kAll all voxels around have the same label.
   [[nodiscard]] const SharedSlices& shares() const { return shares_; }
   [[nodiscard]] const LabelPages& pages() const { return pages_; }
 

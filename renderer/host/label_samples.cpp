@@ -26,23 +26,26 @@ Index3 LabelSamples::clamped(glm::ivec3 voxel) const {
   return glm::clamp(voxel, glm::ivec3(0), size_ - 1);
 }
 
-int LabelSamples::at(glm::ivec3 voxel) const {
-  const int label = volume_.voxels().at(clamped(voxel));
-  return pages().is_seen(label) ? label : 0;
-}
-
-LabelSamples::Share LabelSamples::share_of(int label, glm::vec3 position) const {
+LabelSamples::Cell::Cell(const LabelSamples& samples, glm::vec3 position) {
   const glm::vec3 floor = glm::floor(position);
   const glm::ivec3 low(floor);
-  const glm::vec3 f = position - floor;
+  far_share = position - floor;
+  ends = {samples.clamped(low), samples.clamped(low + 1)};
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = samples.volume_.voxels().at(voxel(i));
+}
+
+bool LabelSamples::Cell::is_even() const {
+  return std::all_of(labels.begin(), labels.end(), [this](std::uint8_t one) { return one == labels[0]; });
+}
+
+LabelSamples::Share LabelSamples::share_of(int label, const Cell& cell) const {
+  const std::array<glm::vec3, 2> weights{1.0F - cell.far_share, cell.far_share};
   Share sum{0.0F, label};
   float most = 0.0F;
-  for (int i = 0; i < 8; ++i) {
-    const glm::ivec3 corner(i & 1, i >> 1 & 1, i >> 2);
-    const glm::vec3 along = glm::mix(1.0F - f, f, glm::vec3(corner));
-    const float weight = along.x * along.y * along.z;
-    const int there = at(low + corner);
-    const float own = static_cast<float>(volume_.shares().at(clamped(low + corner))) / 255.0F;
+  for (std::size_t i = 0; i < cell.labels.size(); ++i) {
+    const float weight = weights[i & 1].x * weights[i >> 1 & 1].y * weights[i >> 2].z;
+    const int there = seen(cell.labels[i]);
+    const float own = static_cast<float>(volume_.shares().at(cell.voxel(i))) / 255.0F;
     // Where two labels meet, what one has not is the other's.
     sum.share += weight * (there == label ? own : 1.0F - own);
     if (there == label) continue;
@@ -54,8 +57,12 @@ LabelSamples::Share LabelSamples::share_of(int label, glm::vec3 position) const 
 
 int LabelSamples::between(glm::vec3 position) const {
   if (!volume_.has_voxels()) return 0;
-  const int nearest = at(glm::ivec3(glm::floor(position + 0.5F)));
-  const Share found = share_of(nearest, position);
+  const Index3 voxel = clamped(glm::ivec3(glm::floor(position + 0.5F)));
+  const int nearest = seen(volume_.voxels().at(voxel));
+  if (volume_.shares().at(voxel) == LabelVolume::kAll) return nearest;
+  const Cell cell(*this, position);
+  if (cell.is_even()) return nearest;
+  const Share found = share_of(nearest, cell);
   return found.share >= 0.5F ? nearest : found.other;
 }
 
@@ -65,7 +72,8 @@ glm::vec3 LabelSamples::slope(int label, glm::vec3 position) const {
   for (int axis = 0; axis < 3; ++axis) {
     glm::vec3 h(0.0F);
     h[axis] = 1.0F;
-    slope[axis] = share_of(label, position + h).share - share_of(label, position - h).share;
+    slope[axis] =
+        share_of(label, Cell(*this, position + h)).share - share_of(label, Cell(*this, position - h)).share;
   }
   return slope;
 }

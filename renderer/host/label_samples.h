@@ -1,6 +1,7 @@
 // Labels between voxels: the processor's side of resources/shaders/render/labels.glsl.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -25,7 +26,7 @@ class LabelSamples {
   [[nodiscard]] float opacity(int label) const;
 
   // 0 where the label is hidden, too. Clamped to the volume.
-  [[nodiscard]] int at(glm::ivec3 voxel) const;
+  [[nodiscard]] int at(glm::ivec3 voxel) const { return seen(volume_.voxels().at(clamped(voxel))); }
   // prepare_borders() comes before these. Voxel coordinates, integers at voxel centres.
   [[nodiscard]] int between(glm::vec3 position) const;
   // d (share of the label) / d voxel, from differences over a voxel to each side.
@@ -36,7 +37,20 @@ class LabelSamples {
     float share;  // above a half where the place has the label
     int other;    // the nearest voxel's that has another one
   };
-  [[nodiscard]] Share share_of(int label, glm::vec3 position) const;
+  // The eight voxels around a position, i fastest; those beyond the volume are its outermost ones.
+  struct Cell {
+    Cell(const LabelSamples& samples, glm::vec3 position);
+    [[nodiscard]] Index3 voxel(std::size_t i) const {
+      return {ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z};
+    }
+    [[nodiscard]] bool is_even() const;  // of one label
+
+    std::array<Index3, 2> ends;
+    glm::vec3 far_share;  // of the upper end along each axis
+    std::array<std::uint8_t, 8> labels;
+  };
+  [[nodiscard]] int seen(int label) const { return pages().is_seen(label) ? label : 0; }
+  [[nodiscard]] Share share_of(int label, const Cell& cell) const;
   [[nodiscard]] Index3 clamped(glm::ivec3 voxel) const;
 
   glm::ivec3 size_{0};

@@ -42,7 +42,10 @@ LabelShare share_of(int label, vec3 p) {
 }
 
 int label_between(vec3 p) {
-  int nearest = label_of(ivec3(floor(p + 0.5)));
+  ivec3 voxel = ivec3(floor(p + 0.5));
+  int nearest = label_of(voxel);
+  // All voxels around have the same label.
+  if (texelFetch(label_shares, clamp(voxel, ivec3(0), volume_size - 1), 0).r == 1.0) return nearest;
   LabelShare found = share_of(nearest, p);
   return found.share >= 0.5 ? nearest : found.other;
 }

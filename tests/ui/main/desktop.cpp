@@ -230,7 +230,7 @@ void Desktop::wait_until_idle() {
   // Pictures and figures ask for each other: twice nothing to do means that all is done.
   for (int quiet = 0; quiet < 2; ++quiet) {
     QTest::qWait(20);
-    wait_for([this] { return engine_->idle(); }, 60000);
+    QVERIFY2(wait_for([this] { return engine_->idle(); }, 60000), "a surface moves, or the engine hangs");
     // Further images are sampled in the background. What else runs there may take its time.
     wait_for([] { return engine::BackgroundJob::finish_all(std::chrono::milliseconds(0)); }, 2000);
     QTest::qWait(20);

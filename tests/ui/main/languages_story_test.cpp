@@ -63,7 +63,6 @@ class DesktopIn : public Desktop {
     const QString view = window().menuBar()->actions().at(2)->text();
     choose(QString(view).remove('&'), wanted);
     QVERIFY(wait_for([&] { return &window() != before; }, kPatience));
-    wait_until_idle();
     // To make a window takes longer than an event may.
     static_cast<void>(WatchedApplication::instance().take_held());
   }

@@ -24,7 +24,7 @@ PanelCase::PanelCase()
 
 void PanelCase::wait_until_idle() {
   QCoreApplication::processEvents();  // editors in tables hand over what was typed a moment later
-  static_cast<void>(QTest::qWaitFor([this] { return engine.idle(); }, 60000));
+  QVERIFY2(QTest::qWaitFor([this] { return engine.idle(); }, 60000), "a surface moves, or the engine hangs");
   QCoreApplication::sendPostedEvents();
   QCoreApplication::processEvents();
 }
