@@ -14,7 +14,8 @@ option(TIDEMARK_WERROR "Warnings are errors" OFF)
 option(TIDEMARK_FUZZ "Fuzz targets, for clang (tests/fuzz/run)" OFF)
 set(TIDEMARK_SANITIZE "" CACHE STRING "Sanitizers, as in -fsanitize=: 'address,undefined' or 'thread'")
 
-add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual)
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow
+                    "$<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor;-Woverloaded-virtual>")
 # GCC 12 warns of an overlap that cannot be in std::string (its bug 105651).
 add_compile_options($<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
 # Clang warns of an accidental override by itself.

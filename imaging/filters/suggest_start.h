@@ -19,9 +19,9 @@ struct SuggestedStart {
 
 // What the user knows already: the seed's voxel, or the values among which it is sought (T, epsilon).
 struct StartHints {
-  std::optional<Index3> seed;
-  std::optional<double> target;
-  std::optional<double> range;
+  std::optional<Index3> seed = {};
+  std::optional<double> target = {};
+  std::optional<double> range = {};
 };
 
 // T is the mean of the 5 x 5 x 5 voxels around the seed, epsilon the larger of two standard deviations there

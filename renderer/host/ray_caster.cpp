@@ -12,7 +12,8 @@
 namespace tidemark::renderer {
 namespace {
 
-constexpr int kMostLayers = 64;  // of surface, labels and clip plane along a ray
+constexpr int kMostLayers = 64;       // of surface, labels and clip plane along a ray
+constexpr float kJustBehind = 1e-3F;  // t, in voxels: what is nearer than that is the same place
 
 // Offsets without a pattern that the eye finds (interleaved gradient noise, Jimenez 2014).
 float jitter(glm::vec2 pixel, int round) {
@@ -46,6 +47,10 @@ RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
                                  static_cast<double>(size.height));
   for (int axis = 0; axis < 3; ++axis) {
     inverse_[axis] = 1.0F / (direction_[axis] == 0.0F ? 1e-9F : direction_[axis]);
+    page_step_[axis] = inverse_[axis] > 0.0F ? 1 : -1;
+    glm::ivec3 one(0);
+    one[axis] = page_step_[axis];
+    number_step_[axis] = scene.phi.page_number(one);
   }
   viewer_ = -direction_ * spacing_ / mm_;
   if (view.clip) plane_ = clip_plane_in_voxels(*view.clip, geometry);
@@ -122,12 +127,32 @@ float RayCaster::leaves(const Ray& ray, glm::ivec3 page, int pages) const {
 }
 
 RayCaster::Page RayCaster::enter(const Ray& ray, float t) const {
-  const glm::ivec3 voxel(glm::max(on(ray, t + 1e-3F) + 0.5F, glm::vec3(0.0F)));
+  const glm::ivec3 voxel(glm::max(on(ray, t + kJustBehind) + 0.5F, glm::vec3(0.0F)));
   Page page;
   page.at = glm::min(scene_.phi.page_of(voxel), scene_.phi.page_grid() - 1);
   page.number = scene_.phi.page_number(page.at);
-  page.end = std::max(leaves(ray, page.at, 1), t + 1e-3F);
+  const glm::vec3 shape(scene_.phi.page_shape());
+  const glm::vec3 low = glm::vec3(page.at) * shape - 0.5F - ray.start;
+  page.faces = glm::max(low * inverse_, (low + shape) * inverse_);
+  page.end = std::max(std::min({page.faces.x, page.faces.y, page.faces.z}), t + kJustBehind);
   return page;
+}
+
+void RayCaster::follow(const Ray& ray, float t, Page& page) const {
+  while (page.end <= t + kJustBehind) {
+    int axis = page.faces.y < page.faces.x ? 1 : 0;
+    if (page.faces.z < page.faces[axis]) axis = 2;
+    const int next = page.at[axis] + page_step_[axis];
+    if (next < 0 || next >= scene_.phi.page_grid()[axis]) {  // on the volume's face
+      page.end = t + 2.0F * kJustBehind;
+      return;
+    }
+    page.at[axis] = next;
+    page.number += number_step_[axis];
+    const int far_face = (next + (page_step_[axis] > 0 ? 1 : 0)) * scene_.phi.page_shape()[axis];
+    page.faces[axis] = (static_cast<float>(far_face) - 0.5F - ray.start[axis]) * inverse_[axis];
+    page.end = std::min({page.faces.x, page.faces.y, page.faces.z});
+  }
 }
 
 float RayCaster::skip(const Ray& ray, const Page& page) const {
@@ -150,10 +175,11 @@ RayCaster::Piece RayCaster::march_to_surface(Ray& ray, float stop) const {
   const float voxels_per_phi = std::min({spacing_.x, spacing_.y, spacing_.z}) / mm_;
   const float nearly_band = 0.98F * phi.band();
   float before = ray.t;
+  Page page = enter(ray, ray.t);
   while (ray.t < stop) {
     // To where phi varies.
     while (ray.t < stop) {
-      const Page page = enter(ray, ray.t);
+      follow(ray, ray.t, page);
       const bool resident = (kinds_[page.number] & PageKinds::kPhi) != 0;
       if (!view_.quality.skip_empty) break;
       if (resident && std::abs(phi.at(glm::ivec3(glm::floor(on(ray, ray.t) + 0.5F)))) < nearly_band) break;
@@ -183,8 +209,9 @@ RayCaster::Piece RayCaster::march_to_surface(Ray& ray, float stop) const {
 RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
   const PhiPages& phi = scene_.phi;
   float first = ray.jitter * step_;  // step of the ray; then 0
+  Page page = enter(ray, ray.t);
   while (ray.t < stop && !ray.is_opaque()) {
-    Page page = enter(ray, ray.t);
+    follow(ray, ray.t, page);
     const std::uint8_t kind = kinds_[page.number];
     if (kind == 0) {
       ray.t = std::min(skip(ray, page), std::max(stop, ray.t));
@@ -200,9 +227,9 @@ RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
     const bool inside = phi.is_inside(page.number);
     float end = page.end;
     while (end < stop) {
-      const Page next = enter(ray, end);
-      if (kinds_[next.number] != kind || (needs_phi_ && phi.is_inside(next.number) != inside)) break;
-      end = next.end;
+      follow(ray, end, page);
+      if (kinds_[page.number] != kind || (needs_phi_ && phi.is_inside(page.number) != inside)) break;
+      end = page.end;
     }
     march_evenly(ray, std::min(end, stop), inside ? phi.band() : -phi.band(), PageKinds::stride(kind) * step_,
                  first);

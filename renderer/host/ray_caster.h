@@ -53,10 +53,12 @@ class RayCaster {
       result += (1.0F - result.a) * glm::vec4(colour * opacity, opacity);
     }
   };
-  // The page that a ray is in just behind t, and where it leaves it.
+  // A page on a ray's way, and where the ray leaves it: t of its far face along each axis, and the first of
+  // them.
   struct Page {
     glm::ivec3 at{0};
     int number = 0;
+    glm::vec3 faces{0.0F};
     float end = 0.0F;
   };
   // A piece of the ray in which the surface is: its ends and phi there.
@@ -73,7 +75,11 @@ class RayCaster {
   void cast(Ray& ray) const;
   [[nodiscard]] glm::vec3 on(const Ray& ray, float t) const { return ray.start + t * direction_; }
   [[nodiscard]] float leaves(const Ray& ray, glm::ivec3 page, int pages) const;
+  // The page that the ray is in just behind t.
   [[nodiscard]] Page enter(const Ray& ray, float t) const;
+  // The same from a page that is not behind it: face by face (Amanatides and Woo, "A Fast Voxel Traversal
+  // Algorithm for Ray Tracing", Eurographics 1987).
+  void follow(const Ray& ray, float t, Page& page) const;
   // The end of the empty pages around `page`.
   [[nodiscard]] float skip(const Ray& ray, const Page& page) const;
 
@@ -117,7 +123,9 @@ class RayCaster {
   float step_;
   PageKinds kinds_;
   glm::vec3 inverse_{0.0F};
-  glm::vec3 viewer_{0.0F};  // unit vector to the viewer, in mm along the voxel axes
+  glm::ivec3 page_step_{1};    // along each axis, to the next page
+  glm::ivec3 number_step_{1};  // of its number
+  glm::vec3 viewer_{0.0F};     // unit vector to the viewer, in mm along the voxel axes
   float pixel_mm_ = 1.0F;
   std::optional<VoxelPlane> plane_;
 };

@@ -146,8 +146,9 @@ void RayCaster::find_label(Ray& ray, float stop) const {
   const LabelSamples& labels = scene_.labels;
   int next = ray.label_there;
   float before = ray.label_t;
+  Page page = enter(ray, ray.label_t);
   while (ray.label_t < stop && next == ray.label_there) {
-    const Page page = enter(ray, ray.label_t);
+    follow(ray, ray.label_t, page);
     const float leave = std::min(page.end, stop);
     if (view_.quality.skip_empty &&
         labels.pages().pages()[static_cast<std::size_t>(page.number)] == ray.label_there) {

@@ -84,7 +84,7 @@ std::string nested(int depth, bool closed = true) {
     bytes += std::string("\xfe\xff\x00\xe0\xff\xff\xff\xff", 8);
   }
   for (int i = 0; closed && i < depth; ++i) {
-    bytes += std::string("\xfe\xff\x0d\xe0\0\0\0\0", 8) + std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+    bytes += std::string("\xfe\xff\x0d\xe0\0\0\0\0\xfe\xff\xdd\xe0\0\0\0\0", 16);
   }
   return bytes;
 }

@@ -59,7 +59,7 @@ Desktop::Desktop(solver::ExecutorKind executor, QSize size, bool use_opengl) {
   window().show();
   if (!QTest::qWaitForWindowExposed(&window())) qFatal("the window did not appear");
   WatchedApplication::instance().restart();
-  WatchedApplication::instance().take_held();  // the window's own beginning
+  WatchedApplication::instance().forget_held();  // the window's own beginning
 }
 
 Desktop::~Desktop() {

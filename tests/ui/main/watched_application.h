@@ -23,6 +23,8 @@ class WatchedApplication : public QApplication {
   [[nodiscard]] QString longest() const;  // "31 ms in Paint of tidemark::VolumeViewWidget"
   // Those beyond the limit since the last call.
   [[nodiscard]] QStringList take_held() { return std::exchange(held_, {}); }
+  // Where an event may take longer: a window is made, a picture grabbed.
+  void forget_held() { held_.clear(); }
   // Stories that failed by such events.
   void note_failed_story() { ++failed_stories_; }
   [[nodiscard]] int failed_stories() const { return failed_stories_; }

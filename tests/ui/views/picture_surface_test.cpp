@@ -21,7 +21,7 @@ class DesktopWith : public Desktop {
   explicit DesktopWith(const char* pictures) : Desktop(ask_for(pictures)) {}
   ~DesktopWith() {
     // This thread puts the textures together, which is work of the processor where OpenGL is.
-    WatchedApplication::instance().take_held();
+    WatchedApplication::instance().forget_held();
     qunsetenv("TIDEMARK_PICTURES");
     qunsetenv("TIDEMARK_RENDERER");
   }
