@@ -53,6 +53,7 @@ for program in tidemark tidemark-cli; do install -m 755 "$staging/usr/bin/$progr
 install -m 755 "$tidemark_root/packaging/bundle/launcher.sh" "$root/bin/tidemark"
 ln -s tidemark "$root/bin/tidemark-cli"
 cp -r "$staging/usr/share/." "$root/share"
+[[ -e $root/share/doc/tidemark/handbook/index.html ]] || echo "!! $build has no handbook (ninja -C $build handbook)"
 printf '[Paths]\nPrefix=..\nPlugins=plugins\nTranslations=translations\n' >"$root/libexec/qt.conf"
 for file in dicom.dic private.dic; do
   dictionary=$(ls -d /usr/share/libdcmtk*/"$file") || fail "DCMTK's $file is not there"
@@ -146,7 +147,7 @@ tidemark_archive "$root" "$out/$name.tar.xz"
 if command -v makeself >/dev/null; then
   # It unpacks into a folder of its name where it is started, and puts nothing anywhere else. Its head has the command that
   # made it, so the command names no folder.
-  (cd "$out" && TZ=UTC makeself --quiet --nomd5 --nocrc --sha256 --xz --threads 2 --complevel 6 --notemp --nowait --nox11 \
+  (cd "$out" && TZ=UTC makeself --quiet --nomd5 --nocrc --sha256 --xz --threads 2 --complevel 6 --notemp --nowait --nox11 --keep-umask \
     --packaging-date "$(date -u -d "@$SOURCE_DATE_EPOCH")" \
     --tar-extra "--sort=name --mtime=@$SOURCE_DATE_EPOCH --owner=0 --group=0 --numeric-owner" \
     "$name" "$name.run" "Tidemark $tidemark_version") >"$out/makeself.log" 2>&1 || {

@@ -67,20 +67,24 @@ bool PlayButton::event(QEvent* event) {
 }
 
 NextStep::NextStep(engine::CaseProxy& proxy, QWidget& view)
-    : QWidget(&view), proxy_(proxy), view_(view), hint_(new QWidget), play_(new PlayButton) {
+    : QWidget(&view),
+      proxy_(proxy),
+      view_(view),
+      hint_(new QWidget),
+      how_(new QLabel),
+      play_(new PlayButton) {
   auto* column = new QVBoxLayout(hint_);
   column->setContentsMargins(kSpaceGroups, kSpaceGroups, kSpaceGroups, kSpaceGroups);
   column->setSpacing(kSpace);
-  auto* text = new QLabel(tr("Place a surface: click in the tissue, in a slice. Or drag from its middle."));
-  text->setWordWrap(true);
-  text->setAlignment(Qt::AlignCenter);
-  QPalette colours = text->palette();
+  how_->setWordWrap(true);
+  how_->setAlignment(Qt::AlignCenter);
+  QPalette colours = how_->palette();
   colours.setColor(QPalette::WindowText, kOnDark);
-  text->setPalette(colours);
+  how_->setPalette(colours);
   auto* place = new QPushButton(icon(u"tool-seed"), tr("Sphere tool"));
   place->setToolTip(tr("Takes the tool that places spheres, and shows the panel with other ways to begin."));
   connect(place, &QPushButton::clicked, this, &NextStep::place_wanted);
-  column->addWidget(text);
+  column->addWidget(how_);
   column->addWidget(place, 0, Qt::AlignHCenter);
   connect(play_, &PlayButton::clicked, this, [this] {
     view_.setFocus();  // the button goes
@@ -106,6 +110,11 @@ void NextStep::follow() {
   const bool to_place = !state.begun && !begins_in_strokes && !settings.show_source;
   const bool to_play = begins_in_strokes || (state.begun && !state.playing && state.step == 0);
   const bool wanted = !settings.clip_on && (to_place || to_play);
+  how_->setText(
+      settings.tool == engine::Tool::seed
+          ? tr("Place a surface: click in the tissue, in a slice. Or drag from its middle.")
+          : tr("Place a surface: take the sphere tool. Then click in the tissue, in a slice, or drag "
+               "from its middle."));
   hint_->setVisible(to_place);
   play_->setVisible(to_play);
   if (wanted) move_into_view();

@@ -6,6 +6,8 @@
 
 #include "engine/case_proxy.h"
 
+class QLabel;
+
 namespace tidemark::ui {
 
 // Round and large, for what is to be pressed next. Enter and Space press it.
@@ -42,6 +44,7 @@ class NextStep : public QWidget {
   engine::CaseProxy& proxy_;
   QWidget& view_;
   QWidget* hint_;
+  QLabel* how_;
   PlayButton* play_;
 };
 

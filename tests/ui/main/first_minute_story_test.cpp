@@ -161,8 +161,12 @@ void FirstMinuteStoryTest::the_hint_brings_tool_and_panel() {
   QVERIFY(next && next->isVisible());
   auto* place = next->findChild<QPushButton*>();
   QVERIFY(place && place->text() == "Sphere tool");
+  // With another tool a click places nothing, and the hint does not say so.
+  auto* how = next->findChild<QLabel*>();
+  QVERIFY(how && how->text().startsWith("Place a surface: take the sphere tool."));
   click(*place);
   desktop.wait_until_idle();
+  QVERIFY(how->text().startsWith("Place a surface: click in the tissue"));
   QVERIFY(desktop.proxy().display().settings().tool == engine::Tool::seed);
   QVERIFY(seen<QAbstractButton>(desktop, "Draw in a view"));
   // What is looked at is not covered.
