@@ -25,8 +25,8 @@ class LabelPages {
   void set_colours(std::span<const LabelColour> colours);
 
   [[nodiscard]] bool has_voxels() const { return !sets_.empty(); }
-  // Whether a label that is seen has a voxel.
-  [[nodiscard]] bool shows() const { return shows_; }
+  // Whether labels show in a view that draws them with this opacity: a label that is seen has a voxel.
+  [[nodiscard]] bool show_at(double opacity) const { return opacity > 0.0 && shows_; }
   [[nodiscard]] bool is_seen(int label) const { return visible_[static_cast<std::size_t>(label)]; }
   // By virtual page: 0 where no label shows, the label that it has throughout, or kMixed.
   static constexpr std::int32_t kMixed = -1;

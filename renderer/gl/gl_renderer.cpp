@@ -202,7 +202,7 @@ VolumeView GlRenderer::resolved(const VolumeView& asked) {
 }
 
 bool GlRenderer::shows_labels(const VolumeView& view) const {
-  return view.label_opacity > 0.0 && labels_.pages().shows();
+  return labels_.pages().show_at(view.label_opacity);
 }
 
 Result<const gpu::Program*> GlRenderer::use_volume_program(const char* fragment, const VolumeView& view,

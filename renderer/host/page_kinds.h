@@ -21,7 +21,7 @@ class PageKinds {
     return static_cast<float>(1 << (kind >> kStrideShift));
   }
 
-  // For a view that is resolved(), whose steps have that length.
+  // For a view that is resolved(), whose steps have that length; with labels where it shows some.
   PageKinds(HostScene& scene, const VolumeView& view, float step_mm);
 
   [[nodiscard]] std::uint8_t operator[](int page) const { return kinds_[static_cast<std::size_t>(page)]; }
@@ -31,11 +31,17 @@ class PageKinds {
     const glm::ivec3 cube = page / kSide;
     return cubes_[static_cast<std::size_t>(cube.x + cube_grid_.x * (cube.y + cube_grid_.y * cube.z))] == 0;
   }
+  // The box of pages beyond which nothing is to be seen: its first page along each axis, and the first behind
+  // it. Without any such page the first are behind the others.
+  [[nodiscard]] glm::ivec3 first() const { return first_; }
+  [[nodiscard]] glm::ivec3 end() const { return end_; }
 
  private:
   glm::ivec3 cube_grid_{0};
   std::vector<std::uint8_t> kinds_;
   std::vector<std::uint8_t> cubes_;
+  glm::ivec3 first_{0};
+  glm::ivec3 end_{0};
 };
 
 }  // namespace tidemark::renderer

@@ -33,7 +33,7 @@ RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
       change_(view.colouring == SurfaceColouring::change ? scene.map(EvaluatedMap::change) : nullptr),
       shows_source_(shows_source(view)),
       needs_phi_(needs_phi(view)),
-      shows_labels_(view.label_opacity > 0.0 && scene.labels.pages().shows()),
+      shows_labels_(scene.labels.pages().show_at(view.label_opacity)),
       volume_(scene.source.size()),
       spacing_(scene.geometry().spacing_mm),
       voxel_from_view_(view.camera.voxel_from_view(scene.geometry(), size.aspect()) *
@@ -54,6 +54,10 @@ RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
   }
   viewer_ = -direction_ * spacing_ / mm_;
   if (view.clip) plane_ = clip_plane_in_voxels(*view.clip, geometry);
+  // Between pages phi belongs to both.
+  const glm::vec3 page(scene.phi.page_shape());
+  seen_low_ = glm::max(glm::vec3(kinds_.first()) * page - 1.0F, glm::vec3(0.0F)) - 0.5F;
+  seen_high_ = glm::min(glm::vec3(kinds_.end()) * page + 1.0F, volume_) - 0.5F;
   set_up_light();
   if (shows_source_) set_up_source();
 }
@@ -90,13 +94,21 @@ void RayCaster::set_up_source() {
 RayCaster::Ray RayCaster::begin(glm::vec2 view_position) const {
   Ray ray;
   ray.start = glm::vec3(voxel_from_view_ * glm::vec4(view_position, -1.0F, 1.0F));
-  const glm::vec3 to_low = (glm::vec3(-0.5F) - ray.start) * inverse_;
-  const glm::vec3 to_high = (volume_ - 0.5F - ray.start) * inverse_;
+  ray.whole = within(ray, glm::vec3(-0.5F), volume_ - 0.5F);
+  clip(ray);
+  const glm::vec2 seen = within(ray, seen_low_, seen_high_);
+  for (glm::vec2* part : {&ray.for_surface, &ray.for_source}) {
+    *part = {std::max(part->x, seen.x), std::min(part->y, seen.y)};
+  }
+  return ray;
+}
+
+glm::vec2 RayCaster::within(const Ray& ray, glm::vec3 low, glm::vec3 high) const {
+  const glm::vec3 to_low = (low - ray.start) * inverse_;
+  const glm::vec3 to_high = (high - ray.start) * inverse_;
   const glm::vec3 enter = glm::min(to_low, to_high);
   const glm::vec3 leave = glm::max(to_low, to_high);
-  ray.whole = {std::max({enter.x, enter.y, enter.z, 0.0F}), std::min({leave.x, leave.y, leave.z})};
-  clip(ray);
-  return ray;
+  return {std::max({enter.x, enter.y, enter.z, 0.0F}), std::min({leave.x, leave.y, leave.z})};
 }
 
 void RayCaster::clip(Ray& ray) const {
@@ -322,13 +334,15 @@ void RayCaster::cast(Ray& ray) const {
   ray.t = kNever;
   float end = -kNever;
   const auto include = [&](glm::vec2 part) {
+    if (part.x > part.y) return;
     ray.t = std::min(ray.t, part.x);
     end = std::max(end, part.y);
   };
   if (view_.surface || shows_labels_) include(ray.for_surface);
   if (shows_source_) include(ray.for_source);
-  if (shows_labels_) begin_labels(ray);
   if (ray.cut < kNever) include({ray.cut, ray.cut});
+  if (ray.t > end) return;
+  if (shows_labels_) begin_labels(ray);
   if (needs_phi_) ray.inside = scene_.phi.between(on(ray, ray.t)) > 0.0F;
   // Where the inside meets the volume's border the surface is closed.
   const bool enters_inside = view_.surface && ray.inside && ray.t <= ray.whole.x + 1e-3F;

@@ -71,6 +71,8 @@ class RayCaster {
   void set_up_source();
   void set_up_light();
   [[nodiscard]] Ray begin(glm::vec2 view_position) const;
+  // From where to where the ray is in a box.
+  [[nodiscard]] glm::vec2 within(const Ray& ray, glm::vec3 low, glm::vec3 high) const;
   void clip(Ray& ray) const;
   void cast(Ray& ray) const;
   [[nodiscard]] glm::vec3 on(const Ray& ray, float t) const { return ray.start + t * direction_; }
@@ -128,6 +130,8 @@ class RayCaster {
   glm::vec3 viewer_{0.0F};     // unit vector to the viewer, in mm along the voxel axes
   float pixel_mm_ = 1.0F;
   std::optional<VoxelPlane> plane_;
+  glm::vec3 seen_low_{0.0F};  // the box, in voxels, beyond which nothing is to be seen
+  glm::vec3 seen_high_{0.0F};
 };
 
 }  // namespace tidemark::renderer

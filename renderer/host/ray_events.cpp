@@ -132,6 +132,8 @@ void RayCaster::meet_clip_plane(Ray& ray) const {
 }
 
 void RayCaster::begin_labels(Ray& ray) const {
+  ray.label_border = kNever;
+  if (ray.for_surface.x > ray.for_surface.y) return;
   ray.label_t = ray.for_surface.x;
   ray.label_there = scene_.labels.between(on(ray, ray.label_t));
   // Where it meets the volume's border a label is closed.

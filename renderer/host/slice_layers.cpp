@@ -96,7 +96,7 @@ SliceLayers::SliceLayers(const HostScene& scene, const SliceView& view, const Sl
       base_ = Base::pages;
       break;
   }
-  has_labels_ = view.label_opacity > 0.0 && scene.labels.pages().shows();
+  has_labels_ = scene.labels.pages().show_at(view.label_opacity);
 }
 
 bool SliceLayers::is_outside(glm::vec3 p) const {

@@ -13,7 +13,7 @@ constexpr std::int64_t kTile = 16;  // pixels a side: neighbouring rays read the
 
 // What a view shows beside phi and the source is made ready.
 void prepare(HostScene& scene, const VolumeView& view, ThreadPool& threads) {
-  if (view.label_opacity > 0.0 && scene.labels.pages().shows()) scene.labels.prepare_borders();
+  if (scene.labels.pages().show_at(view.label_opacity)) scene.labels.prepare_borders();
   if (MapSamples* map = scene.map(map_of(view))) {
     map->fill_pages(scene.phi.layout(), scene.phi.resident_pages(), threads);
   }
