@@ -18,8 +18,11 @@ function(tidemark_precompile target)
   tidemark_cache_precompiled(${target})
 endfunction()
 
-# A test's time goes into what it tests: its own code is compiled quickly.
-set(TIDEMARK_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+# For code whose time goes into what it calls: a test, a command, a panel.
+set(TIDEMARK_COMPILED_QUICKLY $<$<CONFIG:Release>:-O1>)
+
+# A test's code.
+set(TIDEMARK_TEST_OPTIONS ${TIDEMARK_COMPILED_QUICKLY})
 if(CMAKE_UNITY_BUILD)
   # In a joined file a test's own types seem to be of a header.
   list(APPEND TIDEMARK_TEST_OPTIONS $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
