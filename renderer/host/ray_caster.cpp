@@ -15,6 +15,10 @@ namespace {
 constexpr int kMostLayers = 64;       // of surface, labels and clip plane along a ray
 constexpr float kJustBehind = 1e-3F;  // t, in voxels: what is nearer than that is the same place
 
+float least(glm::vec3 v) {
+  return std::min({v.x, v.y, v.z});
+}
+
 // Offsets without a pattern that the eye finds (interleaved gradient noise, Jimenez 2014).
 float jitter(glm::vec2 pixel, int round) {
   const glm::vec2 p = pixel + 5.588238F * static_cast<float>(round);
@@ -130,12 +134,10 @@ void RayCaster::clip(Ray& ray) const {
   ray.for_source = plane_ && view_.clip->clips_source ? left : ray.whole;
 }
 
-// Where the ray leaves a cube of that many pages a side, from `page` on.
-float RayCaster::leaves(const Ray& ray, glm::ivec3 page, int pages) const {
+glm::vec3 RayCaster::far_faces(const Ray& ray, glm::ivec3 page, int pages) const {
   const glm::vec3 shape(scene_.phi.page_shape());
   const glm::vec3 low = glm::vec3(page) * shape - 0.5F - ray.start;
-  const glm::vec3 out_of = glm::max(low * inverse_, (low + static_cast<float>(pages) * shape) * inverse_);
-  return std::min({out_of.x, out_of.y, out_of.z});
+  return glm::max(low * inverse_, (low + static_cast<float>(pages) * shape) * inverse_);
 }
 
 RayCaster::Page RayCaster::enter(const Ray& ray, float t) const {
@@ -143,10 +145,8 @@ RayCaster::Page RayCaster::enter(const Ray& ray, float t) const {
   Page page;
   page.at = glm::min(scene_.phi.page_of(voxel), scene_.phi.page_grid() - 1);
   page.number = scene_.phi.page_number(page.at);
-  const glm::vec3 shape(scene_.phi.page_shape());
-  const glm::vec3 low = glm::vec3(page.at) * shape - 0.5F - ray.start;
-  page.faces = glm::max(low * inverse_, (low + shape) * inverse_);
-  page.end = std::max(std::min({page.faces.x, page.faces.y, page.faces.z}), t + kJustBehind);
+  page.faces = far_faces(ray, page.at, 1);
+  page.end = std::max(least(page.faces), t + kJustBehind);
   return page;
 }
 
@@ -163,13 +163,14 @@ void RayCaster::follow(const Ray& ray, float t, Page& page) const {
     page.number += number_step_[axis];
     const int far_face = (next + (page_step_[axis] > 0 ? 1 : 0)) * scene_.phi.page_shape()[axis];
     page.faces[axis] = (static_cast<float>(far_face) - 0.5F - ray.start[axis]) * inverse_[axis];
-    page.end = std::min({page.faces.x, page.faces.y, page.faces.z});
+    page.end = least(page.faces);
   }
 }
 
 float RayCaster::skip(const Ray& ray, const Page& page) const {
   if (!kinds_.cube_is_empty(page.at)) return page.end;
-  return std::max(leaves(ray, page.at / PageKinds::kSide * PageKinds::kSide, PageKinds::kSide), page.end);
+  const glm::ivec3 cube = page.at / PageKinds::kSide * PageKinds::kSide;
+  return std::max(least(far_faces(ray, cube, PageKinds::kSide)), page.end);
 }
 
 // The next piece of the ray in which the surface is, from t until `stop`, adding the source on the way.

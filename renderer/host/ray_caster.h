@@ -76,7 +76,8 @@ class RayCaster {
   void clip(Ray& ray) const;
   void cast(Ray& ray) const;
   [[nodiscard]] glm::vec3 on(const Ray& ray, float t) const { return ray.start + t * direction_; }
-  [[nodiscard]] float leaves(const Ray& ray, glm::ivec3 page, int pages) const;
+  // t of the far face along each axis of a cube of that many pages a side, from `page` on.
+  [[nodiscard]] glm::vec3 far_faces(const Ray& ray, glm::ivec3 page, int pages) const;
   // The page that the ray is in just behind t.
   [[nodiscard]] Page enter(const Ray& ray, float t) const;
   // The same from a page that is not behind it: face by face (Amanatides and Woo, "A Fast Voxel Traversal

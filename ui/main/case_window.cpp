@@ -204,7 +204,7 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind, int number) {
   dock->setProperty(kViewNumber, number);
   dock->setProperty(kKind, static_cast<int>(kind));
   dock->setWidget(view);
-  auto* bar = new ViewBar(*proxy_, view->title(), {actions_.play, actions_.step}, actions_.tools->actions());
+  auto* bar = new ViewBar(*proxy_, view->title(), actions_.tools->actions());
   if (kind == ViewKind::speed) bar->add_choice(new SpeedMapChoice(*proxy_, bar));
   dock->setTitleBarWidget(bar);
   connect(bar, &ViewBar::close_wanted, dock, &QDockWidget::close);

@@ -8,6 +8,7 @@
 
 #include "ui/look/icons.h"
 #include "ui/views/driven_by.h"
+#include "ui/views/play.h"
 #include "ui/widgets/elided_label.h"
 
 namespace tidemark::ui {
@@ -17,22 +18,18 @@ constexpr int kLeastTitleWidth = 60;
 
 }  // namespace
 
-ViewBar::ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
-                 const QList<QAction*>& tools, QWidget* parent)
+ViewBar::ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAction*>& tools,
+                 QWidget* parent)
     : QWidget(parent), proxy_(proxy), tools_(tools) {
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(8, 1, 2, 1);
   layout->setSpacing(2);
   title_ = new ElidedLabel(title);
   layout->addWidget(title_, 1);
-  for (QAction* action : evolution) {
-    auto* button = new QToolButton;
-    button->setDefaultAction(action);
-    button->setAutoRaise(true);
-    button->setFocusPolicy(Qt::TabFocus);
-    layout->addWidget(button);
-    evolution_ << button;
-  }
+  play_ = add_button("play", tr("Play or pause the evolution of the surface"));
+  connect(play_, &QToolButton::clicked, this, [this] { toggle_play(proxy_); });
+  step_ = add_button("step", tr("Compute one step"));
+  connect(step_, &QToolButton::clicked, &proxy_, [this] { proxy_.step(); });
   target_ = add_number(&solver::Parameters::target, tr("T"), tr("Target T"),
                        tr("T: the brightness that attracts the surface"));
   range_ = add_number(&solver::Parameters::range, tr("ε"), tr("Range epsilon"),
@@ -110,8 +107,19 @@ void ViewBar::change(double solver::Parameters::*parameter, double value) {
 
 void ViewBar::follow_state() {
   show_what_fits();
+  follow_evolution();
   target_->show_unless_typed(proxy_.parameters().target);
   range_->show_unless_typed(proxy_.parameters().range);
+}
+
+void ViewBar::follow_evolution() {
+  const engine::CaseState& state = proxy_.state();
+  play_->setEnabled(can_play(proxy_));
+  step_->setEnabled(state.begun);
+  const QString name = state.playing ? tr("Pause") : tr("Play");
+  if (play_->accessibleName() == name) return;
+  play_->setAccessibleName(name);
+  play_->setIcon(icon(state.playing ? u"pause" : u"play"));
 }
 
 void ViewBar::follow_tool() {
@@ -166,7 +174,7 @@ void ViewBar::show_what_fits() {
   };
   for (QWidget* button : other_buttons_) show({button}, 0);
   const int title = title_->sizeHint().width();
-  show(evolution_, title);
+  show({play_, step_}, title);
   fits = fits && is_driven_by(proxy_.drive(), "tent");
   show(numbers_, std::min(title, kLeastTitleWidth));
 }

@@ -13,9 +13,9 @@ namespace tidemark::ui {
 class ViewBar : public QWidget {
   Q_OBJECT
  public:
-  // `evolution` and `tools`: the actions whose buttons stand here.
-  ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAction*>& evolution,
-          const QList<QAction*>& tools, QWidget* parent = nullptr);
+  // `tools`: the actions of the menu of tools.
+  ViewBar(engine::CaseProxy& proxy, const QString& title, const QList<QAction*>& tools,
+          QWidget* parent = nullptr);
 
   // What the view's picture is to show, behind its name.
   void add_choice(QWidget* choice);
@@ -36,6 +36,7 @@ class ViewBar : public QWidget {
   NumberBox* add_number(double solver::Parameters::*parameter, const QString& label, const QString& name,
                         const QString& tip);
   void follow_state();
+  void follow_evolution();
   void show_what_fits();
   [[nodiscard]] QList<QWidget*> lasting() const;
   [[nodiscard]] int room_for(const QList<QWidget*>& parts) const;
@@ -44,11 +45,12 @@ class ViewBar : public QWidget {
 
   engine::CaseProxy& proxy_;
   QLabel* title_;
+  QToolButton* play_;  // of this case, whichever one is active
+  QToolButton* step_;
   QToolButton* tool_;
   QList<QAction*> tools_;
   // What goes first when the bar is narrow, what next, and so on.
   QList<QWidget*> numbers_;
-  QList<QWidget*> evolution_;
   QList<QWidget*> other_buttons_;  // the last one first
   QList<QWidget*> lasting_;        // never
   NumberBox* target_;

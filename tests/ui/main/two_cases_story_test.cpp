@@ -8,6 +8,7 @@
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "tests/ui/main/story_language.h"
 #include "ui/panels/speed_controls.h"
 
 namespace tidemark::test::two_cases_story_test {
@@ -17,6 +18,7 @@ class TwoCasesStoryTest : public QObject {
 
  private slots:
   void panels_follow_the_active_case();
+  void a_bars_play_is_of_its_own_case();
   void six_views_follow_two_surfaces_and_phi_stays_where_it_is();
   void linked_cases_are_looked_at_together();
   void cases_in_lock_step_rest_at_the_same_step_data();
@@ -108,6 +110,45 @@ void TwoCasesStoryTest::panels_follow_the_active_case() {
   QCOMPARE(shown, 6);
   QCOMPARE(desktop.engine().contexts_made(), 1);
   desktop.screenshot("two-cases");
+}
+
+// Whichever case is active, a floating view's bar among them.
+void TwoCasesStoryTest::a_bars_play_is_of_its_own_case() {
+  Desktop desktop(story_executor(), {1400, 760});
+  const auto cases = open_two(desktop, "sphere", "dumbbell");
+  begin_both(desktop, cases, 8.0);
+  QCOMPARE(desktop.window().active_case(), cases[1]);
+  const auto buttons = [](ui::CaseWindow& window, const QString& name) {
+    QList<QToolButton*> found;
+    for (QToolButton* button : window.findChildren<QToolButton*>()) {
+      if (button->isVisible() && button->accessibleName() == name) found << button;
+    }
+    return found;
+  };
+  const QString play = in_story_language("Play");
+  const QString pause = in_story_language("Pause");
+  QVERIFY(!buttons(*cases[0], play).isEmpty());
+  cases[0]->proxy().set_pause_at_convergence(false);
+  cases[0]->proxy().play();
+  QVERIFY(Desktop::wait_for([&] { return !buttons(*cases[0], pause).isEmpty(); }));
+  QVERIFY(buttons(*cases[0], play).isEmpty());
+  QVERIFY(buttons(*cases[1], pause).isEmpty());
+
+  auto* dock = cases[0]->dock_of(cases[0]->views().front());
+  dock->setFloating(true);
+  QTest::mouseClick(cases[1]->views().front(), Qt::LeftButton, Qt::ControlModifier);
+  QToolButton* floating = nullptr;
+  QVERIFY(Desktop::wait_for([&] {
+    for (QToolButton* button : dock->findChildren<QToolButton*>()) {
+      if (button->isVisible() && button->accessibleName() == pause) floating = button;
+    }
+    return floating != nullptr;
+  }));
+  QTest::mouseClick(floating, Qt::LeftButton);
+  QVERIFY(Desktop::wait_for([&] { return !cases[0]->proxy().state().playing; }));
+  desktop.wait_until_idle();
+  QVERIFY(cases[0]->proxy().state().step > 0);
+  QCOMPARE(cases[1]->proxy().state().step, 0);
 }
 
 void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is() {

@@ -30,7 +30,7 @@ class ViewBarTest : public QObject {
  private slots:
   void init() {
     the_case_ = std::make_unique<test::PanelCase>();
-    bar_ = std::make_unique<ui::ViewBar>(*the_case_->proxy, "Axial", QList<QAction*>(), QList<QAction*>());
+    bar_ = std::make_unique<ui::ViewBar>(*the_case_->proxy, "Axial", QList<QAction*>());
     bar_->resize(600, 30);
     test::show(*bar_);
   }
@@ -82,9 +82,8 @@ class ViewBarTest : public QObject {
   }
   void a_narrow_bar_leaves_parts_out_and_cuts_none() {
     QFETCH(double, type);
-    QAction play(ui::icon(u"play"), "Play");
     QAction tool(ui::icon(u"tool-window"), "Window");
-    ui::ViewBar bar(*the_case_->proxy, "Speed map", {&play}, {&tool});
+    ui::ViewBar bar(*the_case_->proxy, "Speed map", {&tool});
     auto* choice = new ui::SpeedMapChoice(*the_case_->proxy, &bar);
     bar.add_choice(choice);
     bar.resize(600, 30);
@@ -128,6 +127,22 @@ class ViewBarTest : public QObject {
     QVERIFY(parts().size() < all);
     bar.resize(1000, 30);
     QTRY_COMPARE(parts().size(), all);
+  }
+
+  void play_and_step_are_of_its_own_case() {
+    the_case_->begin(5.0);
+    the_case_->wait_until_idle();
+    auto* play = test::named<QToolButton>(*bar_, "Play");
+    auto* step = test::named<QToolButton>(*bar_, "Compute one step");
+    QVERIFY(play && play->isEnabled() && step && step->isEnabled());
+    step->click();
+    the_case_->wait_until_idle();
+    QCOMPARE(the_case_->state().step, 1);
+    play->click();
+    QTRY_VERIFY(the_case_->state().playing || the_case_->state().step > 1);
+    the_case_->proxy->pause();
+    the_case_->wait_until_idle();
+    QCOMPARE(play->accessibleName(), "Play");
   }
 
   void it_follows_what_is_set_elsewhere() {
