@@ -76,7 +76,8 @@ try_without_x() {
 cat >"$work/desktop.sh" <<'INNER'
 cd /home/user
 mkdir -p screen
-Xvfb :97 -screen 0 1600x1000x24 -nolisten tcp -fbdir /home/user/screen >xvfb.log 2>&1 &
+# It would begin anew, and refuse clients meanwhile, when its last client has gone.
+Xvfb :97 -noreset -screen 0 1600x1000x24 -nolisten tcp -fbdir /home/user/screen >xvfb.log 2>&1 &
 export DISPLAY=:97
 until xwininfo -root >/dev/null 2>&1; do sleep 0.1; done
 : >times
