@@ -12,8 +12,7 @@
 namespace tidemark::renderer {
 namespace {
 
-constexpr int kMostLayers = 64;       // of surface, labels and clip plane along a ray
-constexpr float kJustBehind = 1e-3F;  // t, in voxels: what is nearer than that is the same place
+constexpr int kMostLayers = 64;  // of surface, labels and clip plane along a ray
 
 float least(glm::vec3 v) {
   return std::min({v.x, v.y, v.z});
@@ -346,7 +345,7 @@ void RayCaster::cast(Ray& ray) const {
   if (shows_labels_) begin_labels(ray);
   if (needs_phi_) ray.inside = scene_.phi.between(on(ray, ray.t)) > 0.0F;
   // Where the inside meets the volume's border the surface is closed.
-  const bool enters_inside = view_.surface && ray.inside && ray.t <= ray.whole.x + 1e-3F;
+  const bool enters_inside = view_.surface && ray.inside && ray.t <= ray.whole.x + kJustBehind;
   for (int layer = 0; layer < kMostLayers && !ray.is_opaque(); ++layer) {
     const bool label_ahead = shows_labels_ && ray.label_border < kNever;
     if (ray.t > end && !label_ahead) break;
@@ -356,7 +355,7 @@ void RayCaster::cast(Ray& ray) const {
     const Piece piece = enters ? Piece{} : march(ray, stop);
     bool met = piece.found || enters;
     if (view_.surface) {
-      const bool leaves = !met && ray.inside && stop >= ray.whole.y - 1e-3F;
+      const bool leaves = !met && ray.inside && stop >= ray.whole.y - kJustBehind;
       if (met || leaves) {
         const float at = enters ? ray.whole.x : leaves ? ray.whole.y : crossing(ray, piece);
         if (at >= ray.for_surface.x && at <= ray.for_surface.y) {

@@ -13,7 +13,8 @@
 
 namespace tidemark::renderer {
 
-inline constexpr float kNever = 1e9F;  // beyond the end of every ray
+inline constexpr float kNever = 1e9F;        // beyond the end of every ray
+inline constexpr float kJustBehind = 1e-3F;  // voxels along a ray: what is nearer than that is the same place
 
 // For one picture of a view that is resolved(). Several threads may cast rays at once.
 class RayCaster {

@@ -137,7 +137,7 @@ void RayCaster::begin_labels(Ray& ray) const {
   ray.label_t = ray.for_surface.x;
   ray.label_there = scene_.labels.between(on(ray, ray.label_t));
   // Where it meets the volume's border a label is closed.
-  ray.label_on_face = ray.label_there != 0 && ray.label_t <= ray.whole.x + 1e-3F;
+  ray.label_on_face = ray.label_there != 0 && ray.label_t <= ray.whole.x + kJustBehind;
   ray.label_border = ray.whole.x;
   ray.label_met = ray.label_there;
   if (!ray.label_on_face) find_label(ray, ray.for_surface.y - 2e-3F);
