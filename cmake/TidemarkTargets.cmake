@@ -18,6 +18,13 @@ function(tidemark_precompile target)
   tidemark_cache_precompiled(${target})
 endfunction()
 
+# The target's headers go through Qt's moc.
+function(tidemark_moc target)
+  get_target_property(qt_moc Qt6::moc LOCATION)
+  configure_file(${CMAKE_SOURCE_DIR}/cmake/moc_alone.in ${CMAKE_BINARY_DIR}/moc_alone @ONLY)
+  set_target_properties(${target} PROPERTIES AUTOMOC ON AUTOMOC_EXECUTABLE ${CMAKE_BINARY_DIR}/moc_alone)
+endfunction()
+
 # For code whose time goes into what it calls: a test, a command, a panel.
 set(TIDEMARK_COMPILED_QUICKLY $<$<CONFIG:Release>:-O1>)
 
