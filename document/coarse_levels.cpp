@@ -58,7 +58,7 @@ Status CoarseLevels::find_inside() {
     return fail(ErrorKind::usage, "a saved level set goes on as it is: it has no coarser levels");
   }
   TIDEMARK_TRY(check_spheres(start_, inputs_.source.geometry));
-  auto inside = inside_of(start_, inputs_.source);
+  auto inside = inside_of(start_, {inputs_.source, inputs_.speed.get()}, progress_);
   if (!inside) return pass_on(inside);
   inside_ = std::move(*inside);
   return {};
@@ -93,7 +93,7 @@ Result<bool> CoarseLevels::begin(solver::Executor& executor, const solver::Coars
   }
   Volume volume;
   volume.geometry = grid.coarse();
-  auto phi = place(executor, volume, coarse, progress_);
+  auto phi = place(executor, {volume}, coarse, progress_);
   if (!phi) return pass_on(phi);
   return phi->has_inside();
 }

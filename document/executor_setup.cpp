@@ -206,8 +206,7 @@ Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& p
   TIDEMARK_TRY(set_limit(fits ? start.limit() : nullptr));
   coarse_runs_.clear();
   if (!start.empty()) {
-    auto begun = start.levels > 1 ? begin_coarse_to_fine(start, progress)
-                                  : tidemark::document::begin(*executor_, *source_, start, progress);
+    auto begun = begin_present(start, progress);
     if (!begun) {
       TIDEMARK_TRY(set_limit(former));
     }
@@ -218,22 +217,28 @@ Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& p
   return nothing;
 }
 
-Result<solver::Field> ExecutorSetup::begin_coarse_to_fine(const Start& start, const Progress& progress) {
-  TIDEMARK_TRY(make_missing_speed({nullptr, progress.stop}));
-  CoarseInputs inputs{*source_,
-                      executor_->speed(),
-                      drive_ == nullptr ? nullptr : drive_->constraints,
-                      executor_->parameters(),
-                      kind_,
-                      options_,
-                      executor_->band(),
-                      executor_->memory().page_shape};
-  if (inputs.speed == nullptr) {
-    inputs.speed = std::make_shared<const solver::TentSpeed>(source_, executor_->parameters());
+Result<solver::Field> ExecutorSetup::begin_present(const Start& start, const Progress& progress) {
+  std::shared_ptr<const solver::SpeedFunction> speed;
+  if (start.needs_speed()) {
+    TIDEMARK_TRY(make_missing_speed({nullptr, progress.stop}));
+    speed = executor_->speed();
+    if (speed == nullptr) {
+      speed = std::make_shared<const solver::TentSpeed>(source_, executor_->parameters());
+    }
   }
+  if (start.levels <= 1)
+    return tidemark::document::begin(*executor_, {*source_, speed.get()}, start, progress);
+  const CoarseInputs inputs{*source_,
+                            speed,
+                            drive_ == nullptr ? nullptr : drive_->constraints,
+                            executor_->parameters(),
+                            kind_,
+                            options_,
+                            executor_->band(),
+                            executor_->memory().page_shape};
   auto coarse = run_coarse_levels(start, inputs, progress);
   if (!coarse) return pass_on(coarse);
-  if (!*coarse) return tidemark::document::begin(*executor_, *source_, start, progress);
+  if (!*coarse) return tidemark::document::begin(*executor_, {*source_, speed.get()}, start, progress);
   TIDEMARK_TRY(executor_->restore((*coarse)->phi));
   coarse_runs_ = std::move((*coarse)->runs);
   return executor_->snapshot();

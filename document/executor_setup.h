@@ -79,7 +79,7 @@ class ExecutorSetup {
 
  private:
   ExecutorSetup() = default;
-  Result<solver::Field> begin_coarse_to_fine(const Start& start, const Progress& progress);
+  Result<solver::Field> begin_present(const Start& start, const Progress& progress);
   Status hold(std::shared_ptr<const solver::Constraints> marks,
               std::shared_ptr<const solver::MotionLimit> limit);
   Status remake(std::shared_ptr<const Volume> source, const solver::Parameters& parameters,

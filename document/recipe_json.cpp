@@ -124,6 +124,7 @@ struct FromJson {
   Json operator()(const FloodStart& start) const {
     return {{"kind", "flood"}, {"voxel", index_json(start.voxel)}, {"low", start.low}, {"high", start.high}};
   }
+  Json operator()(const SpeedStart&) const { return {{"kind", "speed"}}; }
   Json operator()(const MaskStart& start) const {
     Json json{{"kind", "mask"},
               {"origin", start.origin},
@@ -163,7 +164,7 @@ From read_from(const JsonField& from) {
     low = from.at("low").number();
     high = from.at("high").number(low);
   };
-  switch (from.at("kind").word({"spheres", "threshold", "flood", "mask", "phi"})) {
+  switch (from.at("kind").word({"spheres", "threshold", "flood", "mask", "phi", "speed"})) {
     case 1: {
       ThresholdStart part;
       low_to_high(part.low, part.high);
@@ -179,6 +180,8 @@ From read_from(const JsonField& from) {
       return read_mask_start(from);
     case 4:
       return FieldStart{read_field(from), from.at("origin").text()};
+    case 5:
+      return SpeedStart{};
     default:
       return {};
   }

@@ -7,6 +7,7 @@
 
 #include "imaging/filters/filters.h"
 #include "solver/distance_transform.h"
+#include "solver/speed/growing_region.h"
 #include "solver/speed/motion_limit.h"
 
 namespace tidemark::document {
@@ -24,6 +25,7 @@ struct Describe {
   Parts operator()(const FloodStart& start) const {
     return {fmt::format("flood fill, values {} to {}", start.low, start.high)};
   }
+  Parts operator()(const SpeedStart&) const { return {"where the speed is above 0"}; }
   Parts operator()(const MaskStart& start) const {
     Parts parts{start.origin.empty() ? "mask" : fmt::format("mask {}", start.origin)};
     if (start.limit != nullptr) parts.push_back(fmt::format("within {} mm", start.limit->within_mm()));
@@ -58,7 +60,9 @@ Status check_sphere(const solver::Sphere& sphere, const Geometry& grid, const ch
 
 // What is inside by the first part.
 struct FirstInside {
-  const Volume& source;
+  const StartInputs& inputs;
+  const Progress& progress;
+  const Volume& source = inputs.source;
 
   using Found = Result<std::optional<Inside>>;
 
@@ -71,6 +75,15 @@ struct FirstInside {
     if (!region) return pass_on(region);
     return tidemark::inside_of(std::make_shared<const BitMask>(std::move(*region)));
   }
+  Found operator()(const SpeedStart&) const {
+    if (inputs.speed->follows_surface()) {
+      return fail(ErrorKind::usage,
+                  "the speed follows the surface: where it is above 0 is known once there is a surface");
+    }
+    auto region = solver::growing_region(*inputs.speed, source.geometry, progress);
+    if (!region) return pass_on(region);
+    return tidemark::inside_of(std::make_shared<const BitMask>(std::move(*region)));
+  }
   Found operator()(const MaskStart& start) const {
     TIDEMARK_TRY(check_grid(start.mask->geometry, source.geometry, "mask"));
     return tidemark::inside_of(start.mask);
@@ -79,24 +92,26 @@ struct FirstInside {
 };
 
 // The first part as phi.
-Result<solver::Field> first_part(const solver::Executor& executor, const Volume& source, const Start& start) {
+Result<solver::Field> first_part(const solver::Executor& executor, const StartInputs& inputs,
+                                 const Start& start, const Progress& progress) {
+  const Geometry& grid = inputs.source.geometry;
   if (const auto* saved = std::get_if<FieldStart>(&start.from)) {
-    TIDEMARK_TRY(check_grid(saved->phi->geometry, source.geometry, "phi"));
-    if (saved->phi->check_fits(source.geometry, executor.band())) return *saved->phi;
+    TIDEMARK_TRY(check_grid(saved->phi->geometry, grid, "phi"));
+    if (saved->phi->check_fits(grid, executor.band())) return *saved->phi;
     return saved->phi->repaged(executor.band(), executor.memory().page_shape);
   }
-  const auto inside = inside_of(start, source);
+  const auto inside = inside_of(start, inputs, progress);
   if (!inside) return pass_on(inside);
-  if (!*inside) return solver::Field::empty(source.geometry, executor.band());
+  if (!*inside) return solver::Field::empty(grid, executor.band());
   return solver::distance_transform(**inside, executor.band(), executor.memory().page_shape);
 }
 
 }  // namespace
 
-Result<solver::Field> place(solver::Executor& executor, const Volume& source, const Start& start,
+Result<solver::Field> place(solver::Executor& executor, const StartInputs& inputs, const Start& start,
                             const Progress& progress) {
   {
-    auto first = first_part(executor, source, start);
+    auto first = first_part(executor, inputs, start, progress);
     if (!first) return first;
     if (progress.cancelled()) return cancelled_error();
     TIDEMARK_TRY(executor.restore(*first));
@@ -121,8 +136,9 @@ Status check_spheres(const Start& start, const Geometry& grid) {
   return {};
 }
 
-Result<std::optional<Inside>> inside_of(const Start& start, const Volume& source) {
-  return std::visit(FirstInside{source}, start.from);
+Result<std::optional<Inside>> inside_of(const Start& start, const StartInputs& inputs,
+                                        const Progress& progress) {
+  return std::visit(FirstInside{inputs, progress}, start.from);
 }
 
 std::vector<std::string> Start::parts() const {
@@ -151,12 +167,12 @@ Start suggested_start(const Geometry& geometry, const std::optional<std::array<d
   return start;
 }
 
-Result<solver::Field> begin(solver::Executor& executor, const Volume& source, const Start& start,
+Result<solver::Field> begin(solver::Executor& executor, const StartInputs& inputs, const Start& start,
                             const Progress& progress) {
-  TIDEMARK_TRY(check_spheres(start, source.geometry));
+  TIDEMARK_TRY(check_spheres(start, inputs.source.geometry));
   const auto before = executor.snapshot();
   if (!before) return pass_on(before);
-  auto phi = place(executor, source, start, progress);
+  auto phi = place(executor, inputs, start, progress);
   if (phi && !phi->has_inside()) {
     phi = fail(ErrorKind::usage, "the start is empty: no voxel is inside ({})", start.describe());
   }

@@ -34,6 +34,12 @@ struct FloodStart {
   bool operator==(const FloodStart&) const = default;
 };
 
+// Voxels where the speed function lets the surface grow: D > 0. It says nothing of a function that follows
+// the surface.
+struct SpeedStart {
+  bool operator==(const SpeedStart&) const = default;
+};
+
 // A mask with the name of where it comes from ("truth.nii.gz", "label Liver"). With a limit the surface never
 // leaves its neighbourhood: the mask is refined.
 struct MaskStart {
@@ -53,11 +59,13 @@ struct FieldStart {
 // The first part, then seeds are added, then erasers are taken away. With more than one level the level set
 // comes to rest on coarser grids first (document/coarse_levels.h), with the conditions of its first step.
 struct Start {
-  std::variant<std::monostate, ThresholdStart, FloodStart, MaskStart, FieldStart> from;
+  std::variant<std::monostate, ThresholdStart, FloodStart, SpeedStart, MaskStart, FieldStart> from;
   std::vector<solver::Sphere> seeds;
   std::vector<solver::Sphere> erasers;
   int levels = 1;  // to solver::CoarseGrid::kMostLevels
 
+  // Whether it cannot be made without the function that drives the surface.
+  [[nodiscard]] bool needs_speed() const { return levels > 1 || std::holds_alternative<SpeedStart>(from); }
   [[nodiscard]] bool empty() const { return std::holds_alternative<std::monostate>(from) && seeds.empty(); }
   // Of a mask that is refined; null: none.
   [[nodiscard]] std::shared_ptr<const solver::MotionLimit> limit() const;
@@ -77,19 +85,26 @@ struct Start {
 [[nodiscard]] std::shared_ptr<const solver::Constraints> joined(
     std::shared_ptr<const solver::Constraints> marks, const solver::MotionLimit* limit);
 
-// What is inside by the first part, on the grid of `source`, the volume as the solver sees it, which must
-// outlive the result. None: there is none, or it is a saved level set. Fails as begin() does.
-Result<std::optional<Inside>> inside_of(const Start& start, const Volume& source);
+// What a start is made from.
+struct StartInputs {
+  const Volume& source;                          // as the solver sees it
+  const solver::SpeedFunction* speed = nullptr;  // that drives the surface; a SpeedStart needs it
+};
+
+// What is inside by the first part, on the grid of the source, which must outlive the result. None: there is
+// none, or it is a saved level set. Fails as begin() does.
+Result<std::optional<Inside>> inside_of(const Start& start, const StartInputs& inputs,
+                                        const Progress& progress);
 // Fails (ErrorKind::usage) when a seed or an eraser is outside the grid.
 Status check_spheres(const Start& start, const Geometry& grid);
-// Gives the executor its start in place of its phi. `source` is the volume as the solver sees it.
-// Fails with ErrorKind::usage when a part is outside the volume or nothing is inside; phi is then as before.
-// phi as it then is.
-Result<solver::Field> begin(solver::Executor& executor, const Volume& source, const Start& start,
+// Gives the executor its start in place of its phi; phi as it then is. Fails with ErrorKind::usage when a
+// part is outside the volume, nothing is inside, or a SpeedStart's function follows the surface; phi is then
+// as before.
+Result<solver::Field> begin(solver::Executor& executor, const StartInputs& inputs, const Start& start,
                             const Progress& progress = {});
 
 // The same as begin(), also where nothing is inside; after a failure phi is anything.
-Result<solver::Field> place(solver::Executor& executor, const Volume& source, const Start& start,
+Result<solver::Field> place(solver::Executor& executor, const StartInputs& inputs, const Start& start,
                             const Progress& progress);
 
 }  // namespace tidemark::document

@@ -63,8 +63,8 @@ Status check_present(const SegmentOptions& options) {
   }
   if (!options.start.given()) {
     return fail(ErrorKind::usage,
-                "a start is needed: --seed, --seed-mm, --init, --init-threshold, --init-flood or --init-phi "
-                "(or --auto-start)");
+                "a start is needed: --seed, --seed-mm, --init, --init-threshold, --init-flood, "
+                "--init-speed or --init-phi (or --auto-start)");
   }
   return {};
 }

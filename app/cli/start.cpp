@@ -73,6 +73,9 @@ void add_start_options(CLI::App& app, StartOptions& options) {
   add_numbers(app, "--init-flood", "I,J,K,LO,HI", options.flood,
               "Voxels with values from LO to HI that are connected to voxel I,J,K")
       ->group(kStartGroup);
+  app.add_flag("--init-speed", options.speed,
+               "All voxels where the speed (--speed) is above 0: the surface would grow there")
+      ->group(kStartGroup);
   app.add_option("--init-phi", options.phi, "A level set saved with --out-phi, to go on with")
       ->type_name("FILE")
       ->group(kStartGroup);
@@ -99,10 +102,11 @@ Status check(const StartOptions& options) {
     return fail(ErrorKind::usage, "--levels: --init-phi goes on as it is, on the finest");
   }
   const int inits = int{options.mask.has_value()} + int{options.threshold.has_value()} +
-                    int{options.flood.has_value()} + int{options.phi.has_value()};
+                    int{options.flood.has_value()} + int{options.speed} + int{options.phi.has_value()};
   if (inits > 1) {
-    return fail(ErrorKind::usage,
-                "only one of --init, --init-threshold, --init-flood and --init-phi can be given");
+    return fail(
+        ErrorKind::usage,
+        "only one of --init, --init-threshold, --init-flood, --init-speed and --init-phi can be given");
   }
   if (options.threshold) {
     return check_order("--init-threshold", (*options.threshold)[0], (*options.threshold)[1]);
@@ -139,6 +143,7 @@ Result<document::Start> make_start(const StartOptions& options, const Geometry& 
   if (options.flood) {
     start.from = document::FloodStart{flood_seed(*options.flood), (*options.flood)[3], (*options.flood)[4]};
   }
+  if (options.speed) start.from = document::SpeedStart{};
   if (options.mask) {
     auto mask = read_mask(*options.mask, grid, console);
     if (!mask) return pass_on(mask);

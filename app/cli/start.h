@@ -1,4 +1,5 @@
-// The start of a level set on the command line: a mask, a threshold, a saved phi, seeds and erasers.
+// The start of a level set on the command line: a mask, a threshold, the speed, a saved phi, seeds and
+// erasers.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -22,10 +23,11 @@ struct StartOptions {
   std::optional<std::string> mask;               // --init
   std::optional<std::vector<double>> threshold;  // --init-threshold: low, high
   std::optional<std::vector<double>> flood;      // --init-flood: i, j, k, low, high
+  bool speed = false;                            // --init-speed
   std::optional<std::string> phi;                // --init-phi
   int levels = 1;                                // --levels; kLevelsBySize: auto
 
-  [[nodiscard]] bool given() const { return !seeds.empty() || mask || threshold || flood || phi; }
+  [[nodiscard]] bool given() const { return !seeds.empty() || mask || threshold || flood || speed || phi; }
 };
 
 void add_start_options(CLI::App& app, StartOptions& options);

@@ -45,10 +45,13 @@ std::vector<CaseFiles> all_cases() {
                    "v05_aorta_mra_levelset/aorta-final-levelset.mha",
                    {},
                    true});
-  cases.push_back({"v09-FLAIR", {v09 + "FLAIR.nii.gz"}, v09 + "lesions.nii.gz"});
+  cases.push_back({"v09-FLAIR", {v09 + "FLAIR.nii.gz"}, v09 + "lesions.nii.gz", {}, false, true});
   cases.push_back({"v09-FLAIR+T1+T2",
                    {v09 + "FLAIR.nii.gz", v09 + "T1.nii.gz", v09 + "T2.nii.gz"},
-                   v09 + "lesions.nii.gz"});
+                   v09 + "lesions.nii.gz",
+                   {},
+                   false,
+                   true});
   return cases;
 }
 
@@ -86,7 +89,7 @@ const std::vector<CaseFiles>& robot_cases() {
 }
 
 Result<RobotCase> load_case(const std::filesystem::path& folder, const CaseFiles& files) {
-  RobotCase result{files.name, {}, {}};
+  RobotCase result{files.name, files.many, {}, {}};
   for (const std::string& file : files.images) {
     auto image = imaging::load_volume(folder / file);
     if (!image) return pass_on(image);

@@ -17,12 +17,14 @@ struct CaseFiles {
   std::string label;
   std::vector<int> values = {};  // of the label file that count; none: all above 0
   bool below_zero = false;       // the label file is a level set that is negative inside
+  bool many = false;             // small objects in many places: the surface begins wherever D > 0
 };
 
 const std::vector<CaseFiles>& robot_cases();
 
 struct RobotCase {
   std::string name;
+  bool many = false;
   std::vector<std::shared_ptr<const Volume>> images;  // on one grid
   Mask truth;
 };

@@ -14,13 +14,20 @@
 #include "core/stopwatch.h"
 #include "core/thread_pool.h"
 #include "robot.h"
+#include "solver/distance_transform.h"
 #include "solver/executor.h"
 #include "solver/speed/cached_speed.h"
 #include "solver/speed/examples/examples_speed.h"
 #include "solver/speed/examples/forest_training.h"
+#include "solver/speed/growing_region.h"
 
 namespace tidemark {
 namespace {
+
+// Of small objects in many places: curvature takes away what is a few voxels wide, and strokes in one object
+// must not speak against the next one.
+constexpr double kAlphaOfMany = 0.9;
+constexpr double kEdgesOfMany = 200.0;
 
 struct Settings {
   std::string folder;
@@ -80,25 +87,32 @@ class StillSurface final : public Surface {
   Geometry grid_;
 };
 
-// The level set of the processor. It goes on from where it is; strokes inside that it
-// does not hold add spheres.
+// The level set of the processor. It goes on from where it is; strokes inside that it does not hold add
+// spheres. Of objects in many places it begins anew each time, wherever it would grow.
 class LevelSetSurface final : public Surface {
  public:
-  static Result<std::unique_ptr<Surface>> make(std::shared_ptr<const Volume> source,
-                                               const Settings& settings) {
+  static Result<std::unique_ptr<Surface>> make(const RobotCase& robot_case, const Settings& settings) {
     solver::Parameters parameters;
-    parameters.alpha = settings.alpha;
-    auto executor = solver::make_executor(solver::ExecutorKind::host, std::move(source), parameters);
+    parameters.alpha = robot_case.many ? kAlphaOfMany : settings.alpha;
+    auto executor = solver::make_executor(solver::ExecutorKind::host, robot_case.images.front(), parameters);
     if (!executor) return pass_on(executor);
     auto surface = std::make_unique<LevelSetSurface>();
     surface->executor_ = std::move(*executor);
     surface->steps_ = settings.steps;
+    surface->many_ = robot_case.many;
     return surface;
   }
 
   Result<Mask> follow(std::shared_ptr<const solver::ExamplesSpeed> function, const Robot& robot) override {
     const Geometry& grid = function->features().geometry();
     TIDEMARK_TRY(executor_->set_speed(std::make_shared<solver::CachedSpeed>(function, grid.size)));
+    if (many_) {
+      auto region = solver::growing_region(*function, grid, {});
+      if (!region) return pass_on(region);
+      const Inside inside = inside_of(std::make_shared<const BitMask>(std::move(*region)));
+      TIDEMARK_TRY(executor_->restore(
+          solver::distance_transform(inside, executor_->band(), executor_->memory().page_shape)));
+    }
     const double unit = std::min({grid.spacing_mm.x, grid.spacing_mm.y, grid.spacing_mm.z});
     for (const Index3 centre : robot.inside()) {
       if (!found_.voxels.empty() && found_.voxels[static_cast<std::size_t>(grid.offset(centre))] != 0)
@@ -118,15 +132,18 @@ class LevelSetSurface final : public Surface {
   std::unique_ptr<solver::Executor> executor_;
   Mask found_;  // last
   std::int64_t steps_ = 0;
+  bool many_ = false;
 };
 
 Result<Outcome> segment(const RobotCase& robot_case, const Settings& settings) {
   std::unique_ptr<Surface> surface = std::make_unique<StillSurface>(robot_case.truth.geometry);
   if (!settings.still) {
-    auto made = LevelSetSurface::make(robot_case.images.front(), settings);
+    auto made = LevelSetSurface::make(robot_case, settings);
     if (!made) return pass_on(made);
     surface = std::move(*made);
   }
+  solver::ExamplesOptions options = settings.options;
+  if (robot_case.many) options.walker.contrast = kEdgesOfMany;
   Robot robot(robot_case.truth);
   robot.begin();
   Outcome outcome;
@@ -138,7 +155,7 @@ Result<Outcome> segment(const RobotCase& robot_case, const Settings& settings) {
   std::shared_ptr<const solver::ExamplesSpeed> function;
   for (;;) {
     Stopwatch watch;
-    auto made = solver::ExamplesSpeed::train(robot_case.images, robot.strokes(), settings.options, {});
+    auto made = solver::ExamplesSpeed::train(robot_case.images, robot.strokes(), options, {});
     if (!made) return pass_on(made);
     function = std::move(*made);
     outcome.training_seconds = std::max(outcome.training_seconds, watch.seconds());
@@ -210,6 +227,7 @@ int main(int argc, char** argv) {
   app.add_option("--sharpness", settings.options.sharpness, "of D");
   app.add_option("--contrast", settings.options.walker.contrast, "how much an edge holds walks back");
   app.add_option("--prior", settings.options.walker.prior, "how often a walk ends and the forest decides");
+  app.add_option("--caution", settings.options.walker.caution, "how much doubt counts as outside");
   app.add_option("--sweeps", settings.options.walker.sweeps, "over each grid of the walker");
   app.add_option("--cells", settings.options.walker.most_cells, "of the walker, at most");
   CLI11_PARSE(app, argc, argv);

@@ -102,6 +102,7 @@ const SpeedKind& regions_kind() {
       .text =
           "Grows where the brightness is nearer to the mean inside than to the mean outside, as they are "
           "now.",
+      .follows_surface = true,
       .parameters = {{.name = "radius",
                       .title = "Radius",
                       .text = "How far around a voxel the means are taken, for a start that is about as near "

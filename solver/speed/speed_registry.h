@@ -48,6 +48,7 @@ struct SpeedKind {
   bool needs_strokes = false;
   bool uses_images = false;  // further images of the case take part
   bool needs_map = false;
+  bool follows_surface = false;  // D depends on it (SpeedFunction::follows_surface)
   std::vector<SpeedParameter> parameters = {};
   // `values` has every parameter. Fails (ErrorKind::usage) saying what is missing, (ErrorKind::cancelled).
   Result<std::shared_ptr<const SpeedFunction>> (*make)(const SpeedInputs& inputs,

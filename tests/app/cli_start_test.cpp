@@ -75,12 +75,21 @@ void CliStartTest::the_start_is_a_mask_or_a_threshold_or_a_fill() {
   const qsizetype seed = base.indexOf("--seed");
   base.remove(seed, 2);
   const QString truth = text(sphere_ / "truth.nii.gz");
-  for (const QStringList& start : {QStringList{"--init", truth}, QStringList{"--init-threshold", "600,1000"},
-                                   QStringList{"--init-flood", "40,40,40,600,1000"}}) {
+  for (const QStringList& start :
+       {QStringList{"--init", truth}, QStringList{"--init-threshold", "600,1000"},
+        QStringList{"--init-flood", "40,40,40,600,1000"}, QStringList{"--init-speed"}}) {
     const Outcome outcome = must_run(base + start + QStringList{"--steps", "0", "--truth", truth, "--json"});
     QVERIFY2(json_of(outcome.out)["dice"].toDouble() > 0.95, outcome.told());
     QCOMPARE(json_of(outcome.out)["steps"].toInt(-1), 0);
   }
+  const Outcome two = run_cli(base + QStringList{"--init", truth, "--init-speed"});
+  QCOMPARE(two.code, 2);
+  QVERIFY2(two.err.contains("only one of"), two.told());
+  // Its speed is known once there is a surface.
+  const Outcome following =
+      run_cli({"segment", text(sphere_ / "series"), "--alpha", "0.5", "--init-speed", "--speed", "regions"});
+  QCOMPARE(following.code, 2);
+  QVERIFY2(following.err.contains("follows the surface"), following.told());
   // The exact distance transform keeps the mask unchanged.
   const Outcome kept =
       must_run(base + QStringList{"--init", truth, "--steps", "0", "--truth", truth, "--json"});

@@ -28,7 +28,7 @@ Ended run(const std::shared_ptr<const Volume>& source, const solver::Parameters&
   if (!executor) qFatal("%s", executor.error().message.c_str());
   const auto constraints = document::joined(nullptr, start.limit().get());
   if (!(*executor)->set_constraints(constraints)) qFatal("no constraints");
-  const auto begun = begin(**executor, *source, start);
+  const auto begun = begin(**executor, {*source}, start);
   if (!begun) qFatal("%s", begun.error().message.c_str());
   const auto report = (*executor)->advance({.steps = steps, .until_converged = true});
   const auto phi = (*executor)->snapshot();

@@ -124,8 +124,8 @@ class RecipeTest : public QObject {
 
   void any_start_comes_back_data() {
     QTest::addColumn<int>("start");
-    const char* const names[] = {"seeds", "threshold", "flood", "mask", "phi", "painted only"};
-    for (int i = 0; i < 6; ++i) QTest::newRow(names[i]) << i;
+    const char* const names[] = {"seeds", "threshold", "flood", "mask", "phi", "painted only", "speed"};
+    for (int i = 0; i < 7; ++i) QTest::newRow(names[i]) << i;
   }
   void any_start_comes_back() {
     QFETCH(int, start);
@@ -144,6 +144,7 @@ class RecipeTest : public QObject {
       run(other->level_set(), 5);
       wanted.from = document::FieldStart{other->level_set().checkpoint().value(), "phi.nrrd"};
     }
+    if (start == 6) wanted.from = document::SpeedStart{};
     if (start == 5) {
       QCOMPARE(failure(level_set.paint(ball_at(volume, {0, 0, 0}, 6.0), solver::Brush::add)), QString());
     } else {

@@ -35,6 +35,7 @@ void InitialisePanel::add_methods() {
   methods_ = {new SphereStartMethod,
               new ValueStartMethod(ValueStartMethod::Extent::everywhere),
               new ValueStartMethod(ValueStartMethod::Extent::connected),
+              new SpeedStartMethod,
               new FileStartMethod(StartFile::mask),
               new LabelStartMethod,
               new FileStartMethod(StartFile::level_set)};

@@ -4,8 +4,10 @@
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QToolButton>
+#include <algorithm>
 #include <cmath>
 
+#include "solver/speed/speed_registry.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/panels/refine_choice.h"
@@ -205,6 +207,42 @@ void ValueStartMethod::refresh() {
                                   value_unit(proxy()->volume()))
                     : QStringLiteral("–"));
   emit changed();
+}
+
+// The speed.
+
+SpeedStartMethod::SpeedStartMethod(QWidget* parent) : StartMethod(parent) {
+  Form form(this);
+  form.note(
+      tr("Takes all voxels where the speed is above 0: every part of what is wanted, also those that no "
+         "sphere or "
+         "stroke has touched. The speed map shows them."));
+}
+
+QString SpeedStartMethod::sentence() const {
+  if (!proxy()) return {};
+  if (!is_known()) {
+    return tr("What drives the surface depends on where it is: place one in another way first.");
+  }
+  return tr("Places the surface around all voxels where it would grow.");
+}
+
+bool SpeedStartMethod::is_known() const {
+  return std::ranges::none_of(proxy()->drive().setting.terms, [](const solver::SpeedTerm& term) {
+    const solver::SpeedKind* kind = solver::speed_kind(term.function);
+    return kind != nullptr && kind->follows_surface;
+  });
+}
+
+bool SpeedStartMethod::can_start() const {
+  return proxy() && is_known();
+}
+
+void SpeedStartMethod::start(int levels) {
+  document::Start start;
+  start.from = document::SpeedStart{};
+  start.levels = levels;
+  proxy()->begin(start);
 }
 
 // Labels.

@@ -58,6 +58,24 @@ class ValueStartMethod : public StartMethod {
   QLabel* here_ = nullptr;  // the value under the crosshair
 };
 
+// All voxels where the speed is above 0, whatever drives the surface.
+class SpeedStartMethod : public StartMethod {
+  Q_OBJECT
+ public:
+  explicit SpeedStartMethod(QWidget* parent = nullptr);
+  [[nodiscard]] QString title() const override { return tr("Speed above 0"); }
+  [[nodiscard]] QString sentence() const override;
+  [[nodiscard]] bool can_start() const override;
+  void start(int levels) override;
+
+ protected:
+  void refresh() override { emit changed(); }
+
+ private:
+  // Whether the speed is known before there is a surface.
+  [[nodiscard]] bool is_known() const;
+};
+
 // A label that was segmented before.
 class LabelStartMethod : public StartMethod {
   Q_OBJECT

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "solver/speed/examples/index.h"
 
@@ -121,7 +122,12 @@ Result<RandomWalker> RandomWalker::solve(const std::vector<std::shared_ptr<const
   network->end.assign(at(network->cells()), static_cast<float>(options.prior));
   network->prior.resize(at(network->cells()));
   threads.for_each(grid.size.z, 1, [&](std::int64_t first, std::int64_t last, int) {
-    if (!progress.cancelled()) prior(grid, first, last, &network->prior[at(first * network->stride(2))]);
+    if (progress.cancelled()) return;
+    float* inside = &network->prior[at(first * network->stride(2))];
+    prior(grid, first, last, inside);
+    const auto caution = static_cast<float>(options.caution);
+    std::transform(inside, inside + (last - first) * network->stride(2), inside,
+                   [&](float p) { return p - caution * (1.0F - std::abs(2.0F * p - 1.0F)); });
   });
   std::vector<float> inside = solved(*network, options.sweeps, threads, progress);
   if (progress.cancelled()) return cancelled_error();

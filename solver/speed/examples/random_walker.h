@@ -19,6 +19,9 @@ struct WalkerOptions {
   double contrast = 20.0;
   // How often a walk ends in a cell, against a step of 1 to a cell that is alike.
   double prior = 0.003;
+  // How much the forest is moved towards "outside" where it is in doubt: p - caution (1 - |2p - 1|). A miss
+  // is small and seen at once; a leak takes the surface far away.
+  double caution = 0.1;
   // Over each of the grids, the coarsest first: so many leave the probabilities right to 0.02.
   int sweeps = 24;
   std::int64_t most_cells = 1'000'000;

@@ -1,6 +1,5 @@
 // A surface that is placed coarse to fine, by the panel.
 #include <QCheckBox>
-#include <QComboBox>
 #include <QPushButton>
 #include <cmath>
 
@@ -33,16 +32,6 @@ class CoarseToFineStoryTest : public QObject {
     }
     return nullptr;
   }
-  static void choose(const QWidget& panel, const QString& way) {
-    for (auto* from : panel.findChildren<QComboBox*>()) {
-      if (from->accessibleName() != "Begin with") continue;
-      from->setFocus();
-      QTest::keyClick(from, Qt::Key_Home);
-      for (int i = 0; i < from->count() && from->currentText() != way; ++i)
-        QTest::keyClick(from, Qt::Key_Down);
-      QCOMPARE(from->currentText(), way);
-    }
-  }
 };
 
 void CoarseToFineStoryTest::it_rests_soon_and_undo_brings_back_what_was() {
@@ -54,9 +43,9 @@ void CoarseToFineStoryTest::it_rests_soon_and_undo_brings_back_what_was() {
   auto* place = button<QPushButton>(*panel, "Place surface");
   QVERIFY(coarse && place);
   // A level set that was saved goes on as it is.
-  choose(*panel, "Saved level set");
+  Desktop::choose_in(*panel, "Begin with", "Saved level set");
   QVERIFY(!coarse->isVisible());
-  choose(*panel, "Spheres");
+  Desktop::choose_in(*panel, "Begin with", "Spheres");
   QVERIFY(coarse->isVisible() && !coarse->isChecked());
   desktop.screenshot("coarse-to-fine-0-panel");
 

@@ -1,5 +1,7 @@
 #include "tests/ui/main/desktop.h"
 
+#include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QLocale>
 #include <QMenu>
 #include <QMenuBar>
@@ -194,6 +196,32 @@ void Desktop::choose(const QString& menu, QAction* wanted) {
     return;
   }
   QFAIL("there is no such menu");
+}
+
+void Desktop::choose_in(const QWidget& panel, const QString& list, const QString& entry) {
+  for (auto* choice : panel.findChildren<QComboBox*>()) {
+    if (choice->accessibleName() != list || !choice->isVisible()) continue;
+    choice->setFocus();
+    QTest::keyClick(choice, Qt::Key_Home);
+    for (int i = 0; i < choice->count() && choice->currentText() != entry; ++i)
+      QTest::keyClick(choice, Qt::Key_Down);
+    QCOMPARE(choice->currentText(), entry);
+    return;
+  }
+  QFAIL("there is no such list");
+}
+
+void Desktop::type_into(const QString& box, const QString& number) {
+  for (auto* one : window().findChildren<QDoubleSpinBox*>()) {
+    if (one->accessibleName() != box || one->visibleRegion().isEmpty()) continue;
+    QTest::mouseDClick(one, Qt::LeftButton, {}, QPoint(one->width() / 3, one->height() / 2));
+    one->selectAll();
+    QTest::keyClicks(one, number);
+    QTest::keyClick(one, Qt::Key_Return);
+    wait_until_idle();
+    return;
+  }
+  QFAIL("there is no such box");
 }
 
 void Desktop::answer(QMessageBox::StandardButton button) {

@@ -76,6 +76,10 @@ class Desktop {
   QAction* menu_entry(const QString& menu, const QString& text);
   // By clicks in the menu bar.
   void choose(const QString& menu, QAction* wanted);
+  // Chooses an entry of the list of that name, by keys.
+  static void choose_in(const QWidget& panel, const QString& list, const QString& entry);
+  // Types a number into the box of that name, which is seen, and waits.
+  void type_into(const QString& box, const QString& number);
   // Presses that button of the next question.
   static void answer(QMessageBox::StandardButton button);
 

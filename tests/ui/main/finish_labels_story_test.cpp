@@ -62,15 +62,6 @@ class FinishLabelsStoryTest : public QObject {
   void each_case_keeps_its_chosen_label();
 
  private:
-  // By keys, until it is the current one.
-  static void choose(QWidget& in, const QString& combo, const QString& entry) {
-    auto* choice = seen<QComboBox>(in, combo);
-    choice->setFocus();
-    QTest::keyClick(choice, Qt::Key_Home);
-    for (int i = 0; i < choice->count() && choice->currentText() != entry; ++i)
-      QTest::keyClick(choice, Qt::Key_Down);
-    QCOMPARE(choice->currentText(), entry);
-  }
   static void wait_for_preview(Desktop& desktop, ui::LabelsPanel& panel) {
     QVERIFY(Desktop::wait_for([&] { return seen<QAbstractButton>(panel, "Apply to labels")->isEnabled(); }));
     QVERIFY(desktop.proxy().label_finisher().is_current());
@@ -85,7 +76,7 @@ class FinishLabelsStoryTest : public QObject {
   }
   // Chosen, looked at, applied; an empty amount leaves what the tool has.
   static void use_tool(Desktop& desktop, ui::LabelsPanel& panel, const QString& tool, const QString& amount) {
-    choose(panel, "Tool", tool);
+    Desktop::choose_in(panel, "Tool", tool);
     if (!amount.isEmpty()) type_amount(panel, amount);
     wait_for_preview(desktop, panel);
     desktop.screenshot(QString("finish-4-%1").arg(tool));
@@ -130,7 +121,7 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   auto* solid = desktop.view<ui::VolumeViewWidget>();
   const QImage solid_before = solid->grab_picture();
 
-  choose(panel, "Tool", "Grow");
+  Desktop::choose_in(panel, "Tool", "Grow");
   type_amount(panel, "4,5");  // either separator is understood
   wait_for_preview(desktop, panel);
   desktop.screenshot("finish-0-grow");
@@ -142,7 +133,7 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   // A click there means what is seen: the ball that has grown, where the surface does not shine through.
   for (const auto& [opacity, radius_mm] : {std::pair(0.4, 8.0), {1.0, 12.5}}) {
     desktop.proxy().display().change(
-        [&](engine::DisplaySettings& settings) { settings.label_opacity = opacity; });
+        [shown = opacity](engine::DisplaySettings& settings) { settings.label_opacity = shown; });
     const auto place = place_in(*solid);
     QVERIFY(place);
     QVERIFY(std::abs(glm::distance(*place, desktop.seed_mm()) - radius_mm) < 1.0);
@@ -158,7 +149,7 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   QVERIFY(difference(solid->grab_picture(), solid_preview) < 0.0005);
   desktop.screenshot("finish-1-grown");
 
-  choose(panel, "Tool", "Split at the clip plane");
+  Desktop::choose_in(panel, "Tool", "Split at the clip plane");
   wait_for_preview(desktop, panel);
   desktop.screenshot("finish-2-split");
   click(desktop, panel, "Apply to labels");
@@ -171,7 +162,7 @@ void FinishLabelsStoryTest::a_label_grows_is_smoothed_and_split() {
   QVERIFY(difference(solid->grab_picture(), solid_before) < 0.0005);
 
   // What cannot be done is said, and nothing is applied.
-  choose(panel, "Tool", "Fill between slices");
+  Desktop::choose_in(panel, "Tool", "Fill between slices");
   QVERIFY(Desktop::wait_for([&] {
     for (QLabel* label : panel.findChildren<QLabel*>()) {
       if (label->isVisible() && label->text().contains("no empty slice")) return true;
@@ -232,7 +223,7 @@ void FinishLabelsStoryTest::each_tool_finds_what_is_known() {
     QVERIFY2(region(desktop, 1) == region_where(grid, use.after), use.tool);
     undo(desktop);
     QVERIFY2(region(desktop, 1) == region_where(grid, use.before), use.tool);
-    choose(panel, "Tool", "None");
+    Desktop::choose_in(panel, "Tool", "None");
     undo(desktop);
   }
 }
@@ -295,7 +286,7 @@ void FinishLabelsStoryTest::a_label_is_split_between_seeds() {
   click(desktop, panel, "Brush");
   paint(14.0);
   const Region both = region(desktop, 1);
-  choose(panel, "Tool", "Split at necks");
+  Desktop::choose_in(panel, "Tool", "Split at necks");
   QVERIFY(Desktop::wait_for([&] { return says(panel, "Add another label and paint the seeds with it."); }));
   click(desktop, panel, "Add");
   click(desktop, panel, "Take voxels of other labels");
@@ -324,7 +315,7 @@ void FinishLabelsStoryTest::a_tool_works_on_the_case_that_is_seen() {
   ui::LabelsPanel& panel = *shown_panel(desktop);
   make_label(desktop, panel);
   auto* first = desktop.window().active_case();
-  choose(panel, "Tool", "Shrink");
+  Desktop::choose_in(panel, "Tool", "Shrink");
   wait_for_preview(desktop, panel);
   // Another case: the tool is put away, and the first case's preview with it.
   QVERIFY(desktop.open_phantom("dumbbell"));
@@ -345,7 +336,7 @@ void FinishLabelsStoryTest::a_preview_follows_the_locks_of_labels() {
     desktop.proxy().set_label(label);
     desktop.wait_until_idle();
   };
-  choose(panel, "Tool", "Grow");
+  Desktop::choose_in(panel, "Tool", "Grow");
   wait_for_preview(desktop, panel);
   auto* apply = seen<QAbstractButton>(panel, "Apply to labels");
   lock(true);
@@ -367,14 +358,14 @@ void FinishLabelsStoryTest::each_tool_has_its_amount_after_any_other() {
   desktop.begin(6.0);
   for (const char* before : {"Intersect", "Shrink"}) {
     use_tool(desktop, panel, before, {});
-    choose(panel, "Tool", "Grow");
+    Desktop::choose_in(panel, "Tool", "Grow");
     const auto* amount = find_seen<ui::NumberBox>(panel, "Amount");
     QVERIFY2(amount, before);
     QCOMPARE(amount->height(), amount->sizeHint().height());
     const auto* apply = seen<QAbstractButton>(panel, "Apply to labels");
     QVERIFY(Desktop::wait_for(
         [&] { return !apply->visibleRegion().isEmpty(); }));  // and not below the panel's end
-    choose(panel, "Tool", "None");
+    Desktop::choose_in(panel, "Tool", "None");
   }
 }
 
@@ -386,7 +377,7 @@ void FinishLabelsStoryTest::a_tool_waits_for_a_surface_that_moves() {
   const Region before = region(desktop, 1);
   desktop.proxy().set_pause_at_convergence(false);
   desktop.press(Qt::Key_P);
-  choose(panel, "Tool", "Add");
+  Desktop::choose_in(panel, "Tool", "Add");
   QVERIFY(Desktop::wait_for([&] { return says(panel, "Pause the surface"); }));
   auto* apply = seen<QAbstractButton>(panel, "Apply to labels");
   QVERIFY(desktop.state().playing);

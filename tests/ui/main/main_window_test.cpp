@@ -2,7 +2,6 @@
 #include <QApplication>
 #include <QDialog>
 #include <QDockWidget>
-#include <QDoubleSpinBox>
 #include <QMap>
 #include <QMenuBar>
 #include <QRegularExpression>
@@ -286,29 +285,17 @@ void MainWindowTest::numbers_are_typed_with_either_separator_in_any_language() {
     QVERIFY(desktop.open_phantom("dumbbell"));
     desktop.begin(8.0);
     desktop.window().panels().show("level-set");
-    const auto type = [&](const char* name, const char* text) {
-      for (auto* box : desktop.window().findChildren<QDoubleSpinBox*>()) {
-        if (box->accessibleName() != name || box->visibleRegion().isEmpty()) continue;
-        QTest::mouseDClick(box, Qt::LeftButton, {}, QPoint(box->width() / 3, box->height() / 2));
-        box->selectAll();
-        QTest::keyClicks(box, text);
-        QTest::keyClick(box, Qt::Key_Return);
-        desktop.wait_until_idle();
-        return true;
-      }
-      return false;
-    };
     for (const char* range : {"97.5", "96,5"}) {
-      QVERIFY(type("Range ε", range));
+      desktop.type_into("Range ε", range);
       QCOMPARE(desktop.state().parameters.range, QString(range).replace(',', '.').toDouble());
     }
     for (const char* alpha : {"0.25", "0,75"}) {
-      QVERIFY(type("Data weight α", alpha));
+      desktop.type_into("Data weight α", alpha);
       QCOMPARE(desktop.state().parameters.alpha, QString(alpha).replace(',', '.').toDouble());
     }
-    QVERIFY(type("Range epsilon", "88.5"));  // in the bar over a view
+    desktop.type_into("Range epsilon", "88.5");  // in the bar over a view
     QCOMPARE(desktop.state().parameters.range, 88.5);
-    QVERIFY(type("Range ε", "1.234,5"));
+    desktop.type_into("Range ε", "1.234,5");
     QCOMPARE(desktop.state().parameters.range, 88.5);
     desktop.screenshot(QStringLiteral("refused-number-%1").arg(language));
   }

@@ -1,7 +1,6 @@
 // A label that is refined: the surface stays near, and views show what has changed.
 #include <QAbstractButton>
 #include <QCheckBox>
-#include <QComboBox>
 #include <QLabel>
 #include <cmath>
 
@@ -44,13 +43,7 @@ class RefineStoryTest : public QObject {
     desktop.wait_until_idle();
     auto* panel = desktop.window().findChild<ui::InitialisePanel*>();
     QVERIFY(panel && panel->isVisible());
-    for (auto* from : panel->findChildren<QComboBox*>()) {
-      if (from->accessibleName() != "Begin with") continue;
-      from->setFocus();
-      for (int i = 0; i < from->count() && from->currentText() != "Label"; ++i)
-        QTest::keyClick(from, Qt::Key_Down);
-      QCOMPARE(from->currentText(), QString("Label"));
-    }
+    Desktop::choose_in(*panel, "Begin with", "Label");
     click(desktop, *panel, "Refine it alone");
     desktop.screenshot("refine-0-place");
   }

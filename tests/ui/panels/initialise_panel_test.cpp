@@ -83,6 +83,25 @@ class InitialisePanelTest : public QObject {
     QVERIFY(says(tr("outside the study")));
   }
 
+  void it_begins_where_the_speed_is_above_0() {
+    solver::Parameters parameters = the_case_->proxy->parameters();
+    parameters.target = 82.5;
+    parameters.range = 22.5;
+    the_case_->proxy->set_parameters(parameters);
+    choose(tr("Speed above 0"));
+    QVERIFY(start_button()->isEnabled());
+    start();
+    std::int64_t inside = 0;
+    for (const float value : the_case_->proxy->volume().values())
+      inside += std::abs(value - parameters.target) < parameters.range ? 1 : 0;
+    QCOMPARE(the_case_->state().surface.voxels_inside, inside);
+    document::Drive drive = the_case_->proxy->drive();
+    drive.setting.terms = {solver::SpeedTerm{"regions", {}}};
+    the_case_->proxy->set_drive(drive);
+    QVERIFY(!start_button()->isEnabled());
+    QVERIFY(says(tr("depends on where it is")));
+  }
+
   void a_mask_file_is_read_away_from_the_interface() {
     Mask mask{the_case_->proxy->volume().geometry, {}};
     mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxel_count()), 0);
