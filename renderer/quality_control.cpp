@@ -20,7 +20,8 @@ std::optional<Pass> QualityControl::next(PictureSize full, int rounds) const {
   if (pixel_seconds_) {
     divisor = 1;
     const auto seconds = [&](std::int64_t d) {
-      return *pixel_seconds_ * static_cast<double>(full.width / d) * static_cast<double>(full.height / d);
+      const std::int64_t pixels = (full.width / d) * (full.height / d);
+      return *pixel_seconds_ * static_cast<double>(pixels);
     };
     while (divisor < kSmallest && seconds(divisor) > budget_seconds_) ++divisor;
   }

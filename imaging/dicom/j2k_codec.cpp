@@ -105,7 +105,7 @@ OFCondition decode_frame(DcmItem& dataset, DcmPixelSequence& sequence, std::vect
 // of its own, since whether it overrides anything depends on the release.
 class CodecWithBits : public DcmCodec {
  public:
-  // NOLINTNEXTLINE(modernize-use-override)
+  // NOLINTNEXTLINE(modernize-use-override, readability-identifier-naming)
   virtual Uint16 decodedBitsAllocated(Uint16 bits_allocated, Uint16 /*bits_stored*/) const {
     return bits_allocated == 8 || bits_allocated == 16 ? bits_allocated : 0;
   }

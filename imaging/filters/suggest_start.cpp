@@ -85,7 +85,8 @@ Histogram histogram(const TypedVolume<Stored>& volume, float lowest, float highe
     const double bin = (volume.value(offset) - result.low) / result.bin_width;
     result.counts[static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0))] += 1.0;
   }
-  result.total = static_cast<double>((count + stride - 1) / stride);
+  const std::int64_t counted = (count + stride - 1) / stride;
+  result.total = static_cast<double>(counted);
   return result;
 }
 

@@ -33,7 +33,7 @@ bool is_control(std::string_view character) {
 
 }  // namespace
 
-std::string clean_text(std::string text) {
+std::string clean_text(const std::string& text) {
   std::string clean;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = character_length(text, at);

@@ -36,6 +36,7 @@ struct PageInfo {
 
 // Pages lie one after the other in reserved address space: phi of buffer 0, of buffer 1, then how far the
 // data term moves the surface in a step.
+// NOLINTNEXTLINE(bugprone-reserved-identifier, readability-identifier-naming): of what the compiler adds
 class PagePool {
  public:
   // Room for at most `capacity` pages; memory is taken as pages are used.

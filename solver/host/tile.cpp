@@ -87,6 +87,7 @@ bool is_own(int y, int z) {
 void gather_row(const PageRow& from, int offset, Tile& tile, int y, int z) {
   constexpr int kLast = kPageSide - 1;
   const float* row = from.page + offset;
+  // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): a page that is read is there
   const float before = from.before != nullptr ? from.before[offset + kLast] : row[0];
   const float after = from.after != nullptr ? from.after[offset] : row[kLast];
   const int to = Tile::row(y, z);

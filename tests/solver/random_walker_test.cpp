@@ -93,6 +93,7 @@ class RandomWalkerTest : public QObject {
     const auto flat = image_of(glm::dvec3(1.0), [](std::int64_t) { return 7.0; });
     WalkerOptions options;
     options.prior = 0.25;
+    options.caution = 0.0;
     const auto inside = profile(flat, options, always(0.3F));
     QVERIFY2(std::abs(inside[20] - 0.3) < 0.01, qPrintable(QString::number(inside[20])));
     // The chain's own rate: 2 cosh(k) = 2 + prior.
@@ -100,6 +101,17 @@ class RandomWalkerTest : public QObject {
     for (const std::size_t x : {1, 3, 6}) {
       const double expected = 0.3 + 0.7 * std::exp(-rate * static_cast<double>(x));
       QVERIFY2(std::abs(inside[x] - expected) < 0.01, qPrintable(QString::number(inside[x] - expected)));
+    }
+  }
+
+  void doubt_counts_as_outside() {
+    const auto flat = image_of(glm::dvec3(1.0), [](std::int64_t) { return 7.0; });
+    WalkerOptions options;
+    options.prior = 0.25;
+    options.caution = 0.15;
+    for (const auto& [prior, expected] : {std::pair(0.3F, 0.21), {0.5F, 0.35}, {0.9F, 0.87}, {0.0F, 0.0}}) {
+      const auto inside = profile(flat, options, always(prior));
+      QVERIFY2(std::abs(inside[20] - expected) < 0.01, qPrintable(QString::number(inside[20])));
     }
   }
 

@@ -20,7 +20,7 @@ struct DicomTag {
   std::uint16_t group = 0;
   std::uint16_t element = 0;
 
-  auto operator<=>(const DicomTag&) const = default;
+  auto operator<=>(const DicomTag&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 takes it for one
 };
 
 // The encoding of a dataset's elements.
