@@ -6,9 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <variant>
 #include <vector>
 
 extern char** environ;
@@ -16,11 +17,14 @@ extern char** environ;
 namespace tidemark::bench {
 namespace {
 
+constexpr int kPoints = 1000;  // of a transfer function
+
 // VTK's own form of a transfer function: opacity of a mm and colour at values, and one opacity by gradient
 // for all. Primitives whose gradients differ cannot be told apart there: the first one's counts.
-nlohmann::json points_of(const renderer::TransferFunction& function) {
+nlohmann::json points_of(const renderer::TransferFunction& function, double low, double high) {
   nlohmann::json points = nlohmann::json::array();
-  for (double value = -1100.0; value <= 2000.0; value += 4.0) {
+  for (int i = 0; i <= kPoints; ++i) {
+    const double value = low + (high - low) * i / kPoints;
     glm::dvec3 colour(0.0);
     double opacity = 0.0;
     for (const renderer::SourcePrimitive& one : function.source) {
@@ -51,11 +55,17 @@ nlohmann::json gradients_of(const renderer::TransferFunction& function) {
 
 Result<std::unique_ptr<VtkPeer>> VtkPeer::start(const Volume& volume, const std::filesystem::path& folder,
                                                 const std::string& python) {
-  const auto* voxels = std::get_if<std::vector<std::int16_t>>(&volume.voxels);
-  if (voxels == nullptr) return fail(ErrorKind::usage, "the peer draws volumes of 16 bits with sign");
+  const std::vector<float> values = volume.values();
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (*low < -32768.0F || *high > 32767.0F) {
+    return fail(ErrorKind::usage, "the peer draws whole numbers of 16 bits: {} to {} are not", *low, *high);
+  }
+  std::vector<std::int16_t> voxels(values.size());
+  std::transform(values.begin(), values.end(), voxels.begin(),
+                 [](float value) { return static_cast<std::int16_t>(std::lround(value)); });
   const std::filesystem::path file = folder / "volume.raw";
   std::ofstream(file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(voxels->data()), static_cast<std::streamsize>(voxels->size() * 2));
+      .write(reinterpret_cast<const char*>(voxels.data()), static_cast<std::streamsize>(voxels.size() * 2));
   int to[2];
   int from[2];
   if (pipe2(to, O_CLOEXEC) != 0 || pipe2(from, O_CLOEXEC) != 0) return fail(ErrorKind::internal, "no pipe");
@@ -70,6 +80,8 @@ Result<std::unique_ptr<VtkPeer>> VtkPeer::start(const Volume& volume, const std:
   posix_spawn_file_actions_adddup2(&actions, to[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, from[1], STDOUT_FILENO);
   std::unique_ptr<VtkPeer> peer(new VtkPeer);
+  peer->low_ = *low;
+  peer->high_ = *high;
   const int failed =
       posix_spawnp(&peer->process_, python.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -106,7 +118,7 @@ Result<std::string> VtkPeer::ask(const std::string& line) {
 Result<VtkPeer::Drawing> VtkPeer::draw(const renderer::TransferFunction& function, std::int64_t side,
                                        double step_mm, double half_height_mm, const renderer::Camera& camera,
                                        const std::filesystem::path& file) {
-  nlohmann::json command{{"values", points_of(function)},
+  nlohmann::json command{{"values", points_of(function, low_, high_)},
                          {"gradients", gradients_of(function)},
                          {"side", side},
                          {"step", step_mm},

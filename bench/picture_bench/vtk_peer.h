@@ -13,7 +13,8 @@ namespace tidemark::bench {
 
 class VtkPeer {
  public:
-  // `folder` is for the volume. Fails (ErrorKind::capability) where Python has no VTK.
+  // `folder` is for the volume, whose values are rounded; VTK draws it along the patient's axes. Fails
+  // (ErrorKind::usage) for values that 16 bits do not hold, (ErrorKind::capability) where Python has no VTK.
   static Result<std::unique_ptr<VtkPeer>> start(const Volume& volume, const std::filesystem::path& folder,
                                                 const std::string& python);
   ~VtkPeer();
@@ -39,6 +40,8 @@ class VtkPeer {
   int from_peer_ = -1;
   int process_ = -1;
   std::string version_;
+  double low_ = 0.0;  // of the volume's values
+  double high_ = 0.0;
 };
 
 }  // namespace tidemark::bench
