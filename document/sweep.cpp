@@ -96,7 +96,8 @@ Status Runs::share_memory(int threads) {
                 "the memory budget of {} MB does not hold the results of {} runs on {} x {} x {} voxels",
                 options_.memory_budget_bytes >> 20, sweep_.runs.size(), size.x, size.y, size.z);
   }
-  executor_budget_ = static_cast<std::int64_t>(kExecutorShare * static_cast<double>(left / threads));
+  const std::int64_t share = left / threads;
+  executor_budget_ = static_cast<std::int64_t>(kExecutorShare * static_cast<double>(share));
   return {};
 }
 

@@ -16,7 +16,7 @@ constexpr float kSteepness = 3.0F;         // an edge of that share resists a te
 }  // namespace
 
 Livewire::Livewire(SliceSlab slab, std::shared_ptr<const Volume> source)
-    : slab_(std::move(slab)), source_(std::move(source)) {}
+    : slab_(slab), source_(std::move(source)) {}
 
 void Livewire::begin_at(glm::dvec3 place_mm) {
   const Index3& size = slab_.geometry().size;

@@ -16,7 +16,7 @@ Result<bool> ShownSpeed::follow(const Speed& driving, bool rests, const ReadPhi&
   auto following = driving->following(**phi);
   driving_ = driving;
   phi_ = std::move(*phi);
-  function_ = following != nullptr ? std::move(following) : driving;
+  function_ = following != nullptr ? following : driving;
   return true;
 }
 

@@ -13,8 +13,8 @@
 #include "core/progress.h"
 #include "core/stopwatch.h"
 #include "imaging/dicom/dicom_setup.h"
-#include "imaging/web/name_resolution.h"
 #include "imaging/pacs/transport.h"
+#include "imaging/web/name_resolution.h"
 
 namespace tidemark::imaging {
 namespace {

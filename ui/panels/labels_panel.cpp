@@ -111,8 +111,8 @@ QWidget* LabelsPanel::make_actions() {
             if (!rows.isEmpty()) model_->set_meaning(rows.first().row(), meaning);
           });
   accept_ = new QPushButton(tr("Accept surface into label"));
-  accept_->setToolTip(
-      tr("What is inside becomes the label. The surface stays until the panel Place surface begins another."));
+  accept_->setToolTip(tr(
+      "What is inside becomes the label. The surface stays until the panel Place surface begins another."));
   form.wide(accept_);
   connect(accept_, &QPushButton::clicked, this, &LabelsPanel::accept_surface);
   take_all_ = new QCheckBox(tr("Take voxels of other labels"));

@@ -105,8 +105,7 @@ void SpeedControls::refresh() {
     show_row(*form_, of_tent, has_tent);
   show_row(*form_, certainty_, !proxy()->drive().setting.is_tent());
   // What learns sees all images; the others see one.
-  show_row(*form_, joint_,
-                       is_driven_by(proxy()->drive(), "examples") && JointPlot::fits(proxy()->drive()));
+  show_row(*form_, joint_, is_driven_by(proxy()->drive(), "examples") && JointPlot::fits(proxy()->drive()));
   show_mark();
   tent_->set_tent(parameters.target, parameters.range);
   target_->set_value(parameters.target);

@@ -12,7 +12,7 @@ bool Gesture::Ground::is_same_as(const Ground& other) const {
 void Gesture::begin(std::unique_ptr<Drag> drag, Qt::MouseButton button, Ground ground) {
   drag_ = std::move(drag);
   first_button_ = button_ = button;
-  ground_ = std::move(ground);
+  ground_ = ground;
   ended_by_click_ = false;
 }
 

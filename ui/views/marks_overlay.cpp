@@ -14,6 +14,7 @@ struct Cell {
   std::int64_t column = 0;
   std::int64_t layer = 0;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison for one
   auto operator<=>(const Cell&) const = default;
 };
 

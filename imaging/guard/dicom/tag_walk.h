@@ -20,7 +20,8 @@ struct DicomTag {
   std::uint16_t group = 0;
   std::uint16_t element = 0;
 
-  auto operator<=>(const DicomTag&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 takes it for one
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison for one
+  auto operator<=>(const DicomTag&) const = default;
 };
 
 // The encoding of a dataset's elements.

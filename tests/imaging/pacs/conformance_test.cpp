@@ -72,9 +72,10 @@ class ConformanceTest : public QObject {
     const std::size_t begin = mark + kMark.size();
     if (const char* target = std::getenv("TIDEMARK_WRITE_TABLE"))
       QVERIFY(write_file(target, page.substr(0, begin) + tables()).has_value());
-    QVERIFY2(page.substr(begin) == tables() || std::getenv("TIDEMARK_WRITE_TABLE") != nullptr,
-             "handbook/conformance.md is not what the code does; to write it again:\n"
-             "  TIDEMARK_WRITE_TABLE=handbook/conformance.md build/release/tests/pacs_tests conformance_test");
+    QVERIFY2(
+        page.substr(begin) == tables() || std::getenv("TIDEMARK_WRITE_TABLE") != nullptr,
+        "handbook/conformance.md is not what the code does; to write it again:\n"
+        "  TIDEMARK_WRITE_TABLE=handbook/conformance.md build/release/tests/pacs_tests conformance_test");
   }
 
   void every_class_and_encoding_has_a_name() {
