@@ -27,7 +27,7 @@ QString without_doubled_braces(QString text) {
 QStringList forms_of(const QJsonValue& translation) {
   QStringList forms;
   if (translation.isString()) forms << translation.toString();
-  for (const QJsonValue& form : translation.toArray()) forms << form.toString();
+  for (const auto& form : translation.toArray()) forms << form.toString();
   return forms.contains(QString()) ? QStringList() : forms;
 }
 
