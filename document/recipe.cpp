@@ -52,7 +52,7 @@ bool Recipe::has_drive() const {
 
 void Recipe::set_conditions(const solver::Parameters& wanted,
                             const std::shared_ptr<const Drive>& wanted_drive) {
-  if (start.levels == 1) {
+  if (!start.needs_speed()) {
     parameters = wanted;
     drive = wanted_drive;
     return;

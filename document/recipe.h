@@ -95,8 +95,8 @@ struct Recipe {
   [[nodiscard]] double final_smoothed_mm() const;
   [[nodiscard]] const std::shared_ptr<const Drive>& final_drive() const;  // null: as `drive`
   [[nodiscard]] bool has_drive() const;                                   // at the start, or in an event
-  // The conditions of the first step become these. A start that was computed coarse to fine keeps those that
-  // it was computed with: others follow it as events.
+  // The conditions of the first step become these. A start that was computed by a speed, coarse to fine or
+  // where it is above 0, keeps those that it was computed with: others follow it as events.
   void set_conditions(const solver::Parameters& wanted, const std::shared_ptr<const Drive>& wanted_drive);
   // Of each drive a changed copy, at the start and in events.
   void change_drives(const std::function<void(Drive&)>& change);

@@ -156,6 +156,35 @@ class RecipeTest : public QObject {
     QVERIFY(replayed(recipe, document->volume()) == values_of(level_set));
   }
 
+  // The surface began where the speed of that time was above 0, whatever drives it later.
+  void a_start_by_speed_keeps_the_speed_that_it_was_made_with() {
+    const auto document = make_case(lumpy_volume());
+    document::LevelSet& level_set = document->level_set();
+    document::Start start;
+    start.from = document::SpeedStart{};
+    QCOMPARE(failure(level_set.begin(start)), QString());
+    const auto begun = values_of(level_set);
+    const auto shift_target = [&](double by) {
+      solver::Parameters parameters = level_set.parameters();
+      parameters.target += by;
+      QCOMPARE(failure(level_set.set_parameters(parameters)), QString());
+    };
+    const auto replays = [&] {
+      return replayed(again(level_set.recipe()), document->volume()) == values_of(level_set);
+    };
+    shift_target(20.0);
+    QVERIFY(replays());
+    run(level_set, 6);
+    QVERIFY(replays());
+    shift_target(-60.0);
+    run(level_set, 4);
+    QCOMPARE(failure(level_set.restart()), QString());
+    QVERIFY(values_of(level_set) == begun);
+    QVERIFY(replays());
+    run(level_set, 6);
+    QVERIFY(replays());
+  }
+
   void every_parameter_comes_back() {
     document::Recipe recipe = begun_case()->level_set().recipe();
     solver::Parameters& parameters = recipe.parameters;
