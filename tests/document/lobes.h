@@ -117,11 +117,12 @@ inline Lobes lobes_without_neck(unsigned number) {
       break;
     }
     case 2: {
-      const glm::dvec3 ends[] = {{100, lot(20, 44), lot(20, 44)}, {12, lot(20, 44), lot(20, 44)}};
+      const glm::dvec3 right{100, lot(20, 44), lot(20, 44)};
+      const glm::dvec3 left{12, lot(20, 44), lot(20, 44)};
       const double radius = lot(2.5, 4.0);
       distance = [=](glm::dvec3 p) {
-        return std::min({ellipsoid_distance(p, centre, body), tube_distance(p, centre, ends[0], radius),
-                         tube_distance(p, centre, ends[1], radius)});
+        return std::min({ellipsoid_distance(p, centre, body), tube_distance(p, centre, right, radius),
+                         tube_distance(p, centre, left, radius)});
       };
       break;
     }

@@ -66,7 +66,7 @@ class SplitSeriesTest : public QObject {
         const imaging::Series& series = found[v];
         QVERIFY2(series.loadable, series.reason.c_str());
         QCOMPARE(series.uid, fmt::format("1.2.3#{}", v + 1));
-        const QString label = labels.at(static_cast<qsizetype>(v));
+        const QString& label = labels.at(static_cast<qsizetype>(v));
         QCOMPARE(QString::fromStdString(series.description), "Scan, " + label);
         QVERIFY(std::any_of(series.changes.begin(), series.changes.end(), [&](const std::string& change) {
           return QString::fromStdString(change).contains(label);

@@ -119,7 +119,7 @@ void KeyImagesTest::pydicom_finds_the_outline_where_the_segment_ends() {
   const QJsonArray points = shown["outlines"].toArray().first().toArray();
   QVERIFY(points.size() > 20);
   QCOMPARE(points.first(), points.last());
-  for (const QJsonValue& point : points) {
+  for (const auto& point : points) {
     const QJsonArray mm = point.toArray();
     const double radius = glm::distance(middle, {mm[0].toDouble(), mm[1].toDouble(), mm[2].toDouble()});
     QVERIFY2(std::abs(radius - kRadius) < 0.05, qPrintable(QString::number(radius)));
