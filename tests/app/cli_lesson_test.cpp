@@ -31,7 +31,7 @@ class CliLessonTest : public QObject {
     const QJsonArray lessons = json_of(must_run({"lesson", "list", "--json"}).out)["lessons"].toArray();
     QCOMPARE(lessons.size(), 8);
     const QByteArray words = must_run({"lesson", "list"}).out;
-    for (const QJsonValue& lesson : lessons) {
+    for (const QJsonValue lesson : lessons) {
       QVERIFY(words.contains(lesson["name"].toString().toUtf8()));
       QVERIFY(words.contains(lesson["title"].toString().toUtf8()));
       QVERIFY(lesson["minutes"].toInt() > 0);

@@ -50,7 +50,7 @@ void CliStartTest::levels_come_to_rest_one_after_the_other() {
   QVERIFY2(figures["dice"].toDouble() > 0.95, outcome.told());
   const QJsonArray coarse = figures["coarse_levels"].toArray();
   QCOMPARE(coarse.size(), 2);
-  for (const QJsonValue& level : coarse) {
+  for (const QJsonValue level : coarse) {
     QVERIFY(level["converged"].toBool());
     QVERIFY(level["steps"].toInt() > 0);
   }

@@ -380,6 +380,8 @@ void write_studies() {
 
 }  // namespace
 
+// What is thrown ends it, which a tool of developers may do.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   if (argc != 2) {
     std::fputs("usage: fuzz_seeds FOLDER\n", stderr);

@@ -84,10 +84,11 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   const double radius = solver::radius_of_ball_mm(desktop.state().surface.volume_ml);
   QVERIFY2(std::abs(radius - kRadius) < axial->mm_per_pixel() + 0.1, qPrintable(QString::number(radius)));
 
-  // Play, change T in mid-run, erase while it runs.
+  // Play, change T in mid-run, erase while it runs: not so fast that it rests before.
   const std::uint64_t pictures = axial->feed().shown().number;
+  desktop.proxy().set_pace(100.0);
   desktop.press(Qt::Key_P);
-  // Once it is so large that the eraser takes a part of it only, however fast the executor is.
+  // Once it is so large that the eraser takes a part of it only.
   const auto large_enough = [&] {
     return desktop.state().playing && desktop.state().step > 20 && desktop.state().surface.volume_ml > 15.0;
   };
@@ -98,6 +99,8 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   desktop.press(Qt::Key_E);
   const glm::dvec3 outwards = centre + glm::dvec3(5, 0, 0);
   Desktop::drag(*axial, {centre, outwards});
+  QVERIFY(desktop.state().playing);
+  desktop.proxy().set_pace(0.0);
   QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }, 120000));
   desktop.wait_until_idle();
   QVERIFY(axial->feed().shown().number > pictures);
