@@ -53,6 +53,12 @@ function(tidemark_take_headers target from)
   tidemark_cache_precompiled(${target})
 endfunction()
 
+# Of a library that talks to people, files and servers, and computes nothing of its own.
+function(tidemark_compile_quickly target)
+  target_compile_options(${target} PRIVATE ${TIDEMARK_COMPILED_QUICKLY})
+  tidemark_take_headers(${target} tidemark_quick_headers)
+endfunction()
+
 # What ccache wants of files that are compiled so (its manual, "Precompiled headers"). Comments count: a header that is
 # precompiled knows its files by their content, and one from before a change of a comment would read them twice.
 function(tidemark_cache_precompiled target)
