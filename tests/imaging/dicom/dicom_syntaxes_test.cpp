@@ -24,8 +24,9 @@ Volume smooth_volume() {
   Volume volume = test::sample_volume_uint16({48, 40, 3});
   auto& voxels = std::get<std::vector<std::uint16_t>>(volume.voxels);
   for (std::size_t v = 0; v < voxels.size(); ++v) {
-    const auto column = static_cast<double>(v % 48);
-    const auto row = static_cast<double>(v / 48);
+    const Index3 at = volume.geometry.voxel_at(static_cast<std::int64_t>(v));
+    const auto column = static_cast<double>(at.x);
+    const auto row = static_cast<double>(at.y + volume.geometry.size.y * at.z);
     voxels[v] =
         static_cast<std::uint16_t>(2000.0 + 900.0 * std::sin(column / 9.0) + 700.0 * std::cos(row / 7.0));
   }
