@@ -20,7 +20,7 @@ void write_noisy_ball(const std::filesystem::path& file, double deviation) {
   std::normal_distribution<double> noise(0.0, deviation);
   std::vector<std::int16_t> voxels;
   for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
-    const glm::dvec3 away(offset % 40 - 19.5, offset / 40 % 40 - 19.5, offset / 1600 - 19.5);
+    const glm::dvec3 away = glm::dvec3(volume.geometry.voxel_at(offset)) - 19.5;
     const double tissue = glm::dot(away, away) < 144.0 ? 300.0 : 0.0;
     voxels.push_back(static_cast<std::int16_t>(std::lround(tissue + noise(random))));
   }

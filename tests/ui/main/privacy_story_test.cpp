@@ -34,7 +34,8 @@ void write_study(const fs::path& folder) {
   volume.geometry.spacing_mm = {1.0, 1.0, 2.0};
   std::vector<std::int16_t> voxels;
   for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
-    const glm::dvec3 away(offset % 40 - 20.0, offset / 40 % 40 - 20.0, 2.0 * (offset / 1600 - 10.0));
+    const glm::dvec3 away = (glm::dvec3(volume.geometry.voxel_at(offset)) - glm::dvec3(20.0, 20.0, 10.0)) *
+                            glm::dvec3(1.0, 1.0, 2.0);
     voxels.push_back(static_cast<std::int16_t>(glm::dot(away, away) < 144.0 ? 100 : 0));
   }
   volume.voxels = std::move(voxels);

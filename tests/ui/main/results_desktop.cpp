@@ -21,7 +21,7 @@ void write_balls(const fs::path& folder) {
   volume.geometry.spacing_mm = {1.0, 1.0, 2.0};
   std::vector<std::int16_t> voxels;
   for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
-    const glm::dvec3 point(offset % 48, offset / 48 % 40, 2.0 * (offset / 1920));
+    const glm::dvec3 point = glm::dvec3(volume.geometry.voxel_at(offset)) * glm::dvec3(1.0, 1.0, 2.0);
     const bool inside = glm::distance(point, kLeft) < 9.0 || glm::distance(point, kRight) < 8.0;
     voxels.push_back(inside ? 100 : 0);
   }
