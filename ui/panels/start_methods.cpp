@@ -215,8 +215,7 @@ SpeedStartMethod::SpeedStartMethod(QWidget* parent) : StartMethod(parent) {
   Form form(this);
   form.note(
       tr("Takes all voxels where the speed is above 0: every part of what is wanted, also those that no "
-         "sphere or "
-         "stroke has touched. The speed map shows them."));
+         "sphere or stroke has touched. The speed map shows them."));
 }
 
 QString SpeedStartMethod::sentence() const {
