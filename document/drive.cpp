@@ -74,10 +74,7 @@ bool uses_tent(const Drive& drive) {
 }
 
 bool uses_images(const solver::SpeedSetting& setting) {
-  return std::any_of(setting.terms.begin(), setting.terms.end(), [](const solver::SpeedTerm& term) {
-    const solver::SpeedKind* kind = solver::speed_kind(term.function);
-    return kind != nullptr && kind->uses_images;
-  });
+  return solver::any_has(setting, &solver::SpeedKind::uses_images);
 }
 
 std::string describe(const Drive& drive) {

@@ -82,6 +82,13 @@ const SpeedKind* speed_kind(std::string_view name) {
   return found == kinds.end() ? nullptr : &*found;
 }
 
+bool any_has(const SpeedSetting& setting, bool SpeedKind::*property) {
+  return std::any_of(setting.terms.begin(), setting.terms.end(), [property](const SpeedTerm& term) {
+    const SpeedKind* kind = speed_kind(term.function);
+    return kind != nullptr && kind->*property;
+  });
+}
+
 Status check(const SpeedSetting& setting) {
   if (setting.terms.empty()) return fail(ErrorKind::usage, "no speed function is chosen");
   for (const SpeedTerm& term : setting.terms) TIDEMARK_TRY(check(term));

@@ -60,6 +60,8 @@ struct SpeedKind {
 const std::vector<SpeedKind>& speed_kinds();
 // Null: there is none of that name.
 const SpeedKind* speed_kind(std::string_view name);
+// Whether one of the setting's functions has a property: &SpeedKind::uses_images.
+[[nodiscard]] bool any_has(const SpeedSetting& setting, bool SpeedKind::*property);
 
 // Fails (ErrorKind::usage) naming the function and the number: an unknown one, or one outside of its range.
 Status check(const SpeedSetting& setting);

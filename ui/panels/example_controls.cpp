@@ -5,7 +5,6 @@
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <algorithm>
 
 #include "engine/stroke_painting.h"
 #include "solver/speed/speed_registry.h"
@@ -92,10 +91,7 @@ void ExampleControls::count() {
 void ExampleControls::refresh() {
   const engine::DisplaySettings& settings = proxy()->display().settings();
   const document::Drive& drive = proxy()->drive();
-  const bool learns = std::ranges::any_of(drive.setting.terms, [](const solver::SpeedTerm& term) {
-    const solver::SpeedKind* kind = solver::speed_kind(term.function);
-    return kind && kind->needs_strokes;
-  });
+  const bool learns = solver::any_has(drive.setting, &solver::SpeedKind::needs_strokes);
   content_->setVisible(learns || drive.strokes || settings.tool == engine::Tool::examples);
   tool_->setChecked(settings.tool == engine::Tool::examples);
   radius_->set_value(settings.stroke_voxels);

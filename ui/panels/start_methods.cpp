@@ -227,10 +227,7 @@ QString SpeedStartMethod::sentence() const {
 }
 
 bool SpeedStartMethod::is_known() const {
-  return std::ranges::none_of(proxy()->drive().setting.terms, [](const solver::SpeedTerm& term) {
-    const solver::SpeedKind* kind = solver::speed_kind(term.function);
-    return kind != nullptr && kind->follows_surface;
-  });
+  return !solver::any_has(proxy()->drive().setting, &solver::SpeedKind::follows_surface);
 }
 
 bool SpeedStartMethod::can_start() const {
