@@ -77,7 +77,7 @@ solver::Strokes read_strokes(const JsonField& field, std::int64_t voxels) {
 }
 
 Json packed_voxels(const solver::Constraints& constraints, solver::Constraint what) {
-  const Index3 size = constraints.layout().volume_size();
+  const Index3 size = constraints.layout().domain_size();
   std::vector<std::uint8_t> voxels;
   voxels.reserve(static_cast<std::size_t>(size.x * size.y * size.z));
   for (std::int64_t z = 0; z < size.z; ++z) {

@@ -31,7 +31,7 @@ std::vector<std::int64_t> pages_around(const solver::PageLayout& layout, const V
                                        std::int64_t reach) {
   std::vector<std::int64_t> pages;
   if (box.empty()) return pages;
-  const VoxelRange around = box.widened(Index3(reach), layout.volume_size());
+  const VoxelRange around = box.widened(Index3(reach), layout.domain_size());
   const Index3 low = around.low / layout.page_shape();
   const Index3 high = (around.high - Index3(1)) / layout.page_shape();
   for (std::int64_t z = low.z; z <= high.z; ++z) {
@@ -48,7 +48,7 @@ LabelPages::LabelPages(const solver::PageLayout& layout) : layout_(layout) {
 }
 
 void LabelPages::set_voxels(const SharedSlices& voxels, const VoxelRange& changed) {
-  const Index3 size = layout_.volume_size();
+  const Index3 size = layout_.domain_size();
   if (sets_.empty()) sets_.assign(static_cast<std::size_t>(layout_.page_count()), LabelSet(1));
   const auto collect = [&](std::int64_t page) {
     const Index3 first = layout_.first_voxel(page);

@@ -25,7 +25,7 @@ struct Tile {
   Tile(const solver::PageLayout& layout, const SharedSlices& all, std::int64_t page)
       : size(layout.valid_shape(page) + Index3(2 * kReach)) {
     const Index3 first = layout.first_voxel(page) - Index3(kReach);
-    const Index3 last = layout.volume_size() - Index3(1);
+    const Index3 last = layout.domain_size() - Index3(1);
     labels.reserve(static_cast<std::size_t>(size.x * size.y * size.z));
     for (std::int64_t z = 0; z < size.z; ++z) {
       for (std::int64_t y = 0; y < size.y; ++y) {
@@ -86,9 +86,9 @@ VoxelRange difference_of(const SharedSlices& a, const SharedSlices& b) {
 LabelVolume::LabelVolume(const solver::PageLayout& layout)
     : layout_(layout),
       pages_(layout),
-      voxels_(layout.volume_size()),
-      shares_(layout.volume_size(), kAll),
-      has_shares_(layout.volume_size()) {}
+      voxels_(layout.domain_size()),
+      shares_(layout.domain_size(), kAll),
+      has_shares_(layout.domain_size()) {}
 
 VoxelRange LabelVolume::set_voxels(const SharedSlices& voxels) {
   const VoxelRange changed = difference_of(voxels, voxels_);
@@ -101,7 +101,7 @@ VoxelRange LabelVolume::prepare_borders() {
   const std::vector<std::int64_t> pages = pages_around(layout_, difference_of(voxels_, has_shares_), kReach);
   has_shares_ = voxels_;
   if (pages.empty()) return {};
-  const Index3 volume = layout_.volume_size();
+  const Index3 volume = layout_.domain_size();
   const VoxelRange box{layout_.first_voxel(pages.front()),
                        layout_.first_voxel(pages.back()) + layout_.valid_shape(pages.back())};
   // Threads write to slices that are nobody else's. Where no page has a border there need not be one.

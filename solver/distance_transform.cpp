@@ -23,7 +23,7 @@ Index3 rounded_up(Index3 voxels, Index3 pages) {
 // What each page holds.
 std::vector<std::uint8_t> contents_of(const Inside& inside, const PageLayout& layout, ThreadPool& threads) {
   const Index3 pages = layout.pages();
-  const Index3 size = layout.volume_size();
+  const Index3 size = layout.domain_size();
   const Index3 shape = layout.page_shape();
   std::vector<std::uint8_t> contents(static_cast<std::size_t>(layout.page_count()), 0);
   threads.for_each(pages.y * pages.z, 1, [&](std::int64_t begin, std::int64_t end, int) {
@@ -135,7 +135,7 @@ class PageDistances {
     for_each_near([&](std::int64_t) { any = true; });
     if (!any) return;
     const Index3 first = first_page * layout_.page_shape();
-    const Index3 size = glm::min(end_page * layout_.page_shape(), layout_.volume_size()) - first;
+    const Index3 size = glm::min(end_page * layout_.page_shape(), layout_.domain_size()) - first;
     const auto distances =
         boxes_[static_cast<std::size_t>(member)].compute(inside_, first, size, static_cast<float>(phi_.band));
     for_each_near([&](std::int64_t page) { copy(page, distances.data(), first, size); });

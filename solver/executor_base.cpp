@@ -44,7 +44,7 @@ Status ExecutorBase::follow_surface() {
 }
 
 Status ExecutorBase::check_fits(const Constraints& constraints) const {
-  if (constraints.layout().volume_size() == source_->geometry.size) return {};
+  if (constraints.layout().domain_size() == source_->geometry.size) return {};
   return fail(ErrorKind::usage, "walls and anchors are on another grid than the volume");
 }
 

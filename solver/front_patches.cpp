@@ -16,9 +16,9 @@ template <class Visit>
 Status for_each_page(const Executor& executor, const Visit& visit) {
   PageView view;
   if (executor.page_view(view)) {
-    const PageLayout& layout = view.table->layout();
+    const PageLayout& layout = view.memory->layout();
     for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-      const PhysicalPage physical = view.table->physical(page);
+      const PhysicalPage physical = view.memory->physical(page);
       if (physical == kOutsidePage) continue;
       visit(layout.first_voxel(page), layout.valid_shape(page),
             physical == kInsidePage ? nullptr : view.phi(physical), layout.page_shape());

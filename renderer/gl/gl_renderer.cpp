@@ -63,7 +63,7 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create(std::shared_ptr<gpu::Devi
                                                        std::shared_ptr<const Volume> source,
                                                        const solver::PageLayout& layout,
                                                        std::int64_t largest_volume) {
-  if (layout.volume_size() != source->geometry.size) {
+  if (layout.domain_size() != source->geometry.size) {
     return fail(ErrorKind::usage, "the pages are not those of the volume");
   }
   TIDEMARK_TRY(device->make_current());
@@ -130,7 +130,7 @@ Status GlRenderer::set_constraints(const solver::Constraints* constraints) {
     constraints_.reset();
     return {};
   }
-  if (constraints->layout().volume_size() != source_->geometry.size) {
+  if (constraints->layout().domain_size() != source_->geometry.size) {
     return fail(ErrorKind::usage, "walls and anchors are on another grid than the volume");
   }
   if (!constraints_) {

@@ -37,7 +37,7 @@ Result<PhiPicture> PhiPicture::create(gpu::Device& device, const solver::PageLay
                                            static_cast<float>(band), 1);
   if (!field) return pass_on(field);
   picture.field_ = std::move(*field);
-  picture.table_ = solver::PageTable(layout);
+  picture.pages_ = solver::PagedMemory<3>(layout, solver::kUnlimited);
   picture.band_ = band;
   picture.shown_ = solver::SharedPages(layout.page_count(), layout.voxels_per_page());
   auto table = Array::create(device, layout.page_count(), gpu::TexelFormat::r32i, "page table");
@@ -65,10 +65,10 @@ std::vector<PhiPicture::Change> PhiPicture::follow(const solver::Field& phi) {
     const bool is_inside = kind == solver::Field::Kind::inside;
     if (kind == solver::Field::Kind::stored) {
       stored.push_back(page);
-    } else if (solver::is_static_page(table_.physical(page))) {
-      table_.set_static(page, is_inside);
+    } else if (solver::is_static_page(pages_.physical(page))) {
+      pages_.set_static(page, is_inside);
     } else {
-      table_.release(page, is_inside);
+      pages_.release(page, is_inside);
     }
   };
   if (shown_) {
@@ -80,9 +80,9 @@ std::vector<PhiPicture::Change> PhiPicture::follow(const solver::Field& phi) {
   new_pages_.clear();
   std::vector<Change> changes;
   for (const std::int64_t page : stored) {
-    solver::PhysicalPage physical = table_.physical(page);
+    solver::PhysicalPage physical = pages_.physical(page);
     if (solver::is_static_page(physical)) {
-      physical = table_.allocate(page);
+      physical = pages_.make_resident(page).value();
       new_pages_.push_back(page);
     }
     changes.push_back({page, physical});
@@ -95,9 +95,9 @@ Status PhiPicture::update(gpu::Device& device, const solver::Field& phi,
   const std::vector<Change> changes = follow(phi);
   // Until everything is up there, nothing counts as shown.
   shown_.reset();
-  if (table_.capacity() > field_.capacity()) {
+  if (pages_.table().capacity() > field_.capacity()) {
     // By a quarter more than needed: a growing surface does not copy G with every picture.
-    const std::int64_t wanted = table_.capacity() + table_.capacity() / 4;
+    const std::int64_t wanted = pages_.table().capacity() + pages_.table().capacity() / 4;
     TIDEMARK_TRY(field_.grow(device, without_power_of_two(layout(), wanted)));
   }
   for (std::size_t first = 0; first < changes.size(); first += static_cast<std::size_t>(most_staged_)) {
@@ -146,8 +146,8 @@ Status PhiPicture::upload(gpu::Device& device, const solver::Field& phi, std::sp
 }
 
 void PhiPicture::upload_tables(std::span<const std::int64_t> quiet) {
-  page_table_.buffer.upload_values<std::int32_t>(0, table_.entries());
-  upload_flags(quiet, table_.resident());
+  page_table_.buffer.upload_values<std::int32_t>(0, pages_.table().entries());
+  upload_flags(quiet, pages_.table().resident());
 }
 
 void PhiPicture::upload_flags(std::span<const std::int64_t> quiet, std::int64_t resident) {
@@ -190,7 +190,7 @@ Status PhiPicture::look_at(gpu::Device& device, const solver::PackedView& view,
 }
 
 std::vector<solver::PhysicalPage> PhiPicture::page_entries() const {
-  if (!viewed_) return table_.entries();
+  if (!viewed_) return pages_.table().entries();
   return viewed_->view.page_table->download_values<solver::PhysicalPage>(0, layout().layout().page_count());
 }
 

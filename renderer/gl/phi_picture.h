@@ -11,7 +11,7 @@
 #include "solver/field.h"
 #include "solver/gl/packed_field.h"
 #include "solver/gl/packed_view.h"
-#include "solver/paging/page_table.h"
+#include "solver/paging/paged_memory.h"
 
 namespace tidemark::renderer {
 
@@ -43,7 +43,7 @@ class PhiPicture {
   [[nodiscard]] std::int64_t pages_uploaded() const { return pages_uploaded_; }  // by the last update
   // Physical memory G, packed like an executor's.
   [[nodiscard]] const solver::PackedField& field() const { return field_; }
-  [[nodiscard]] const solver::PageTable& table() const { return table_; }
+  [[nodiscard]] const solver::PagedMemory<3>& pages() const { return pages_; }
 
  private:
   // A buffer and the texture that shaders see it through.
@@ -63,7 +63,7 @@ class PhiPicture {
   void upload_tables(std::span<const std::int64_t> quiet);
   void upload_flags(std::span<const std::int64_t> quiet, std::int64_t resident);
 
-  solver::PageTable table_;
+  solver::PagedMemory<3> pages_;
   double band_ = 0.0;
   std::optional<solver::SharedPages> shown_;  // what is on the GPU; unset: that is not known
   solver::PackedField field_;

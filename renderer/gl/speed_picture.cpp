@@ -17,7 +17,7 @@ gpu::Defines SpeedPicture::defines() const {
 
 Status SpeedPicture::make_textures(gpu::Device& device) {
   if (!textures_) {
-    auto made = solver::SpeedTextures::create(device, blocks_.volume_size(), 0, false);
+    auto made = solver::SpeedTextures::create(device, blocks_.domain_size(), 0, false);
     if (!made) return pass_on(made);
     textures_ = std::move(*made);
   }
@@ -33,7 +33,7 @@ Status SpeedPicture::fill_plane(gpu::Device& device, const glm::dmat4& voxel_fro
   const glm::dvec3 normal = glm::cross(right, up);
   // What is between voxels needs those on both sides.
   const glm::dvec3 reach = glm::abs(right) + glm::abs(up) + 1.0;
-  const glm::dvec3 end(blocks_.volume_size() - Index3(1));
+  const glm::dvec3 end(blocks_.domain_size() - Index3(1));
   const Index3 first = Index3(glm::clamp(glm::floor(middle - reach), glm::dvec3(0.0), end)) / Index3(8);
   const Index3 last = Index3(glm::clamp(glm::ceil(middle + reach), glm::dvec3(0.0), end)) / Index3(8);
   constexpr double kHalfBlock = 4.5;  // and the voxels before and behind it

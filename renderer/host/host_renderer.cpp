@@ -18,7 +18,7 @@ HostRenderer::HostRenderer(std::shared_ptr<const Volume> source, const solver::P
 
 Result<std::unique_ptr<HostRenderer>> HostRenderer::create(std::shared_ptr<const Volume> source,
                                                            const solver::PageLayout& layout, int threads) {
-  if (layout.volume_size() != source->geometry.size) {
+  if (layout.domain_size() != source->geometry.size) {
     return fail(ErrorKind::usage, "the pages are not those of the volume");
   }
   for (int axis = 0; axis < 3; ++axis) {
@@ -41,7 +41,7 @@ Result<bool> HostRenderer::look_at(solver::Executor& executor,
                                    const std::optional<std::vector<std::int64_t>>& quiet) {
   solver::PageView view;
   if (!executor.page_view(view)) return false;
-  if (view.table->layout() != scene_.phi.layout()) {
+  if (view.memory->layout() != scene_.phi.layout()) {
     return fail(ErrorKind::usage, "pictures and executor differ in pages");
   }
   scene_.phi.show(view, quiet);
@@ -68,7 +68,7 @@ Status HostRenderer::set_constraints(const solver::Constraints* constraints) {
     scene_.constraints.reset();
     return {};
   }
-  if (constraints->layout().volume_size() != volume_->geometry.size) {
+  if (constraints->layout().domain_size() != volume_->geometry.size) {
     return fail(ErrorKind::usage, "walls and anchors are on another grid than the volume");
   }
   scene_.constraints = *constraints;

@@ -6,7 +6,7 @@
 namespace tidemark::renderer {
 
 LabelSamples::LabelSamples(const solver::PageLayout& layout)
-    : size_(layout.volume_size()), volume_(layout), colours_(first_label_colours()) {}
+    : size_(layout.domain_size()), volume_(layout), colours_(first_label_colours()) {}
 
 void LabelSamples::set_colours(std::span<const LabelColour> colours) {
   std::copy(colours.begin(), colours.end(), colours_.begin());

@@ -7,7 +7,7 @@
 namespace tidemark::renderer {
 
 PhiPages::PhiPages(const solver::PageLayout& layout, double band)
-    : layout_(layout), size_(layout.volume_size()), pages_(layout.pages()) {
+    : layout_(layout), size_(layout.domain_size()), pages_(layout.pages()) {
   for (int axis = 0; axis < 3; ++axis) {
     shift_[axis] = std::countr_zero(static_cast<std::uint64_t>(layout.page_shape()[axis]));
   }
@@ -62,7 +62,7 @@ void PhiPages::show(std::shared_ptr<const solver::Field> phi, std::span<const st
 
 void PhiPages::show(const solver::PageView& view, const std::optional<std::vector<std::int64_t>>& quiet) {
   begin(view.band);
-  const std::vector<solver::PhysicalPage>& entries = view.table->entries();
+  const std::vector<solver::PhysicalPage>& entries = view.memory->table().entries();
   for (std::size_t page = 0; page < values_.size(); ++page) {
     const solver::PhysicalPage entry = entries[page];
     values_[page] = entry == solver::kOutsidePage  ? outside_.data()

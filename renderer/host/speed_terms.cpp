@@ -21,7 +21,7 @@ float SpeedTerms::data_between(glm::vec3 position) const {
 SpeedTerms::Values SpeedTerms::at(SpeedTerm term, glm::ivec3 voxel) const {
   namespace per_target = solver::HWY_NAMESPACE;
   const auto phi_at = [&](Index3 v) { return phi.at(glm::ivec3(v)); };
-  const auto stencil = per_target::gather(phi_at, phi.layout().volume_size(), Index3(voxel));
+  const auto stencil = per_target::gather(phi_at, phi.layout().domain_size(), Index3(voxel));
   double inverse_spacing[3];
   std::copy_n(constants.inverse_spacing, 3, inverse_spacing);
   const auto differences = per_target::differences<true, double>(stencil, inverse_spacing);

@@ -66,7 +66,7 @@ gpu::Defines PackedLayout::defines() const {
 }
 
 void PackedLayout::set_uniforms(const gpu::Program& program) const {
-  program.set("volume_size", glm::ivec3(layout_.volume_size()));
+  program.set("volume_size", glm::ivec3(layout_.domain_size()));
   program.set("page_grid", glm::ivec3(layout_.pages()));
 }
 

@@ -45,7 +45,7 @@ Status SpeedTextures::set_function(gpu::Device& device, std::shared_ptr<const Sp
     gpu::Texture3D velocity;
     if (advects) {
       auto made =
-          gpu::Texture3D::create(device, gpu::TexelFormat::rgba32f, blocks_.volume_size(), {}, "velocity");
+          gpu::Texture3D::create(device, gpu::TexelFormat::rgba32f, blocks_.domain_size(), {}, "velocity");
       if (!made) return pass_on(made);
       velocity = std::move(*made);
     }
@@ -86,7 +86,7 @@ void SpeedTextures::want_around(const PageLayout& layout, std::span<const std::i
     const Index3 coordinates = layout.page_coordinates(page);
     const Index3 low = glm::max(coordinates - reach, Index3(0)) * layout.page_shape();
     const Index3 high =
-        glm::min((coordinates + reach + Index3(1)) * layout.page_shape(), layout.volume_size());
+        glm::min((coordinates + reach + Index3(1)) * layout.page_shape(), layout.domain_size());
     want({low, high - low});
   }
 }

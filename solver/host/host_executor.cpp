@@ -123,16 +123,16 @@ void HostExecutor::limit(const PageInfo& info, const float* before, float* phi, 
 std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const PagePrefetch& ahead,
                                        Tile& tile) {
   const PhysicalPage page = quiet_.active()[index];
-  PagePool& pool = pages_.pool();
-  PageInfo& info = pool.info(page);
+  const HostFields& fields = pages_.fields();
+  PageInfo& info = fields.info(page);
   const int next = 1 - pages_.current();
   const Rows rows = whole_vectors(work.compute, kernels_.rows_per_vector);
   work.inside &= ~rows;
   work.outside &= ~rows;
 
   // Rows that stay constant are written only where the other buffer does not hold the constant yet.
-  float* phi = pool.phi(next, page);
-  RowMasks& masks = pool.masks(next, page);
+  float* phi = fields.phi(next, page);
+  RowMasks& masks = fields.masks(next, page);
   fill_rows(phi, work.inside & ~masks.inside, constants_.band);
   fill_rows(phi, work.outside & ~masks.outside, -constants_.band);
 
@@ -141,12 +141,12 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const Pa
   PageResult result;
   if (rows != 0) {
     PageJob job;
-    job.pool = &pool;
+    job.fields = &fields;
     job.buffer = pages_.current();
     job.info = &info;
     job.tile = &tile;
-    job.data_motion = pool.data_motion(page);
-    job.advection = pool.advection(page);
+    job.data_motion = fields.data_motion(page);
+    job.advection = fields.advection(page);
     job.next = phi;
     job.rows = rows;
     job.ahead = &ahead;
@@ -183,10 +183,11 @@ std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const Pa
 std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, int member) {
   // What is to do is found for all of them first: the masks that this waits for then come at the same time.
   const std::vector<PhysicalPage>& active = quiet_.active();
-  const PagePool& pool = pages_.pool();
+  const HostFields& fields = pages_.fields();
   RowWork work[kLongestPiece];
   for (std::int64_t i = begin; i < end; ++i) {
-    work[i - begin] = find_row_work(pool, pages_.current(), pool.info(active[static_cast<std::size_t>(i)]));
+    work[i - begin] =
+        find_row_work(fields, pages_.current(), fields.info(active[static_cast<std::size_t>(i)]));
   }
   constexpr std::int64_t kPrefetchAhead = 5;  // pages; from 2 to 12 it makes no difference (measured)
   // Asking for neighbours, too, makes a step 7 % longer while the surface is small, and 7 % shorter when it
@@ -205,8 +206,8 @@ std::int64_t HostExecutor::update_piece(std::int64_t begin, std::int64_t end, in
     PagePrefetch ahead;
     if (then >= reach.begin && then < reach.end) {
       const PhysicalPage page = active[static_cast<std::size_t>(then)];
-      ahead.add_values(pool, page);
-      if (count > kMostPagesInCache) ahead.add_neighbours(pool, pages_.current(), page);
+      ahead.add_values(fields, page);
+      if (count > kMostPagesInCache) ahead.add_neighbours(fields, pages_.current(), page);
     }
     updates += update_page(static_cast<std::size_t>(i), work[i - begin], ahead, tile);
   }
@@ -297,22 +298,21 @@ Result<AdvanceReport> HostExecutor::advance(const Advance& run) {
 MemoryReport HostExecutor::memory() const {
   MemoryReport report;
   report.resident_pages = pages_.table().resident();
-  report.peak_resident_pages = pages_.peak();
+  report.peak_resident_pages = pages_.memory().peak_resident();
   report.quiet_pages = quiet_.count();
   report.state_bytes =
       pages_.state_bytes() + quiet_.state_bytes() + static_cast<std::int64_t>(codes_.capacity());
   report.peak_state_bytes = report.state_bytes;  // pages are kept for reuse, so memory never shrinks
-  report.source_bytes = PagePool::data_bytes(pages_.table().capacity()) +
-                        pages_.pool().advection_bytes(pages_.table().capacity());
+  report.source_bytes = pages_.drive_bytes();
   report.page_shape = kDefaultPageShape;
   return report;
 }
 
 bool HostExecutor::page_view(PageView& view) const {
-  view.table = &pages_.table();
+  view.memory = &pages_.memory();
   view.band = constants_.band;
   view.pages = pages_.phi(0);
-  view.stride = PagePool::kFloatsPerPage;
+  view.stride = HostFields::kFloatsPerPage;
   return true;
 }
 

@@ -65,7 +65,7 @@ Status PageEdits::restore(const Field& phi) {
   if (phi.layout.page_shape() != kDefaultPageShape) {
     return restore(phi.repaged(phi.band, kDefaultPageShape));
   }
-  TIDEMARK_TRY(pages_.check_budget(phi.pages.stored() - pages_.table().resident()));
+  TIDEMARK_TRY(pages_.memory().check_budget(phi.pages.stored() - pages_.table().resident()));
 
   pages_.clear();
   quiet_.clear();
@@ -77,8 +77,8 @@ Status PageEdits::restore(const Field& phi) {
     TIDEMARK_TRY(pages_.make_resident(page));
   }
   pages_.fill_new_pages();
-  pages_.for_each([&](PhysicalPage page) {
-    std::copy_n(phi.pages.values(pages_.table().virtual_page(page)), kPageVoxels, pages_.phi(page));
+  pages_.memory().for_each_resident([&](PhysicalPage page) {
+    std::copy_n(phi.pages.values(pages_.memory().virtual_page(page)), kPageVoxels, pages_.phi(page));
     pages_.refresh(page);
   });
   pages_.know(phi.pages);
@@ -90,7 +90,7 @@ Status PageEdits::constrain() {
   const Constraints* constraints = contents_.constraints.get();
   if (constraints == nullptr || constraints->empty()) return {};
   std::vector<std::int64_t> pages;
-  for (std::int64_t page = 0; page < pages_.table().layout().page_count(); ++page) {
+  for (std::int64_t page = 0; page < pages_.memory().layout().page_count(); ++page) {
     if (constraints->page(page) != nullptr) pages.push_back(page);
   }
   return constrain(pages);
@@ -99,7 +99,7 @@ Status PageEdits::constrain() {
 Status PageEdits::constrain(const std::vector<std::int64_t>& virtual_pages) {
   const Constraints* constraints = contents_.constraints.get();
   if (constraints == nullptr || constraints->empty()) return {};
-  const PageTable& table = pages_.table();
+  const PagedMemory<3>& memory = pages_.memory();
   // A page that is not resident is constant.
   const auto moves = [](const Constraints::Page& page, PhysicalPage constant) {
     return std::any_of(page.begin(), page.end(), constant == kInsidePage ? is_upper : is_lower);
@@ -107,17 +107,17 @@ Status PageEdits::constrain(const std::vector<std::int64_t>& virtual_pages) {
   std::vector<std::int64_t> to_allocate;
   for (const std::int64_t page : virtual_pages) {
     const Constraints::Page* there = constraints->page(page);
-    const PhysicalPage physical = table.physical(page);
+    const PhysicalPage physical = memory.physical(page);
     if (there == nullptr || !is_static_page(physical)) continue;
     if (moves(*there, physical)) to_allocate.push_back(page);
   }
-  TIDEMARK_TRY(pages_.check_budget(static_cast<std::int64_t>(to_allocate.size())));
+  TIDEMARK_TRY(memory.check_budget(static_cast<std::int64_t>(to_allocate.size())));
   for (const std::int64_t page : to_allocate) {
     TIDEMARK_TRY(pages_.make_resident(page));
   }
   pages_.fill_new_pages();
   for (const std::int64_t virtual_page : virtual_pages) {
-    const PhysicalPage page = table.physical(virtual_page);
+    const PhysicalPage page = memory.physical(virtual_page);
     const Constraints::Page* there = constraints->page(virtual_page);
     if (is_static_page(page) || there == nullptr) continue;
     if (!tidemark::solver::constrain(*there, pages_.phi(page))) continue;
@@ -134,14 +134,14 @@ Status PageEdits::paint(const Sphere& sphere, Brush brush) {
                       contents_.geometry.to_voxel(sphere.centre_mm),
                       contents_.model.smallest_spacing_mm(),
                       static_cast<float>(contents_.model.band())};
-  const PageTable& table = pages_.table();
+  const PagedMemory<3>& memory = pages_.memory();
   std::vector<std::int64_t> below;  // the pages under the stroke
   std::vector<std::int64_t> to_allocate;
   std::vector<Index3> to_flip;  // pages that are not resident and change from all outside to inside or back
   Values values;
   stroke.for_each_page([&](Index3 coordinates) {
-    below.push_back(table.layout().page_number(coordinates));
-    const PhysicalPage page = pages_.table().physical(coordinates);
+    below.push_back(memory.layout().page_number(coordinates));
+    const PhysicalPage page = memory.physical(coordinates);
     if (!is_static_page(page)) return;
     stroke.paint(coordinates, pages_.phi(page), values);
     const float constant = *pages_.phi(page);
@@ -149,10 +149,10 @@ Status PageEdits::paint(const Sphere& sphere, Brush brush) {
     if (all_equal(values, -constant)) {
       to_flip.push_back(coordinates);
     } else {
-      to_allocate.push_back(pages_.table().layout().page_number(coordinates));
+      to_allocate.push_back(memory.layout().page_number(coordinates));
     }
   });
-  TIDEMARK_TRY(pages_.check_budget(static_cast<std::int64_t>(to_allocate.size())));
+  TIDEMARK_TRY(memory.check_budget(static_cast<std::int64_t>(to_allocate.size())));
 
   for (const Index3 coordinates : to_flip) pages_.set_static(coordinates, brush == Brush::add);
   for (const std::int64_t virtual_page : to_allocate) {
@@ -160,7 +160,7 @@ Status PageEdits::paint(const Sphere& sphere, Brush brush) {
   }
   pages_.fill_new_pages();
   stroke.for_each_page([&](Index3 coordinates) {
-    const PhysicalPage page = pages_.table().physical(coordinates);
+    const PhysicalPage page = memory.physical(coordinates);
     if (is_static_page(page)) return;
     float* phi = pages_.phi(page);
     stroke.paint(coordinates, phi, values);

@@ -90,7 +90,7 @@ HWY_INLINE void gather_inner(const PageJob& job, unsigned slices) {
   constexpr int kLastRow = kPageRows - kPageSide;
   const hn::CappedTag<float, kPageSide> one_row;
   Tile& tile = *job.tile;
-  const auto pages = [&](int dy, int dz) { return page_row(*job.pool, job.buffer, *job.info, dy, dz); };
+  const auto pages = [&](int dy, int dz) { return page_row(*job.fields, job.buffer, *job.info, dy, dz); };
   // Bit z + 1 for slice z: the pages below give slice -1, those above slice 8.
   for (const int dz : {-1, 1}) {
     const int z = dz < 0 ? -1 : kPageSide;
@@ -123,7 +123,7 @@ HWY_INLINE void gather_page(const PageJob& job) {
 #if HWY_TARGET <= HWY_AVX2
   if (!at_border(*job.info)) return gather_inner(job, slices);
 #endif
-  gather(*job.pool, job.buffer, *job.info, slices, *job.tile);
+  gather(*job.fields, job.buffer, *job.info, slices, *job.tile);
 }
 
 // The stencil of the voxels that begin at `voxel` in the page and at `at` in the tile.

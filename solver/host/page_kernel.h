@@ -13,8 +13,8 @@
 namespace tidemark::solver {
 
 struct PageJob {
-  const PagePool* pool = nullptr;
-  int buffer = 0;  // of the pool: the one that holds phi
+  const HostFields* fields = nullptr;
+  int buffer = 0;  // of the fields: the one that holds phi
   const PageInfo* info = nullptr;
   Tile* tile = nullptr;                // scratch
   const float* data_motion = nullptr;  // of the page

@@ -2,17 +2,17 @@
 
 namespace tidemark::solver {
 
-void PagePrefetch::add_values(const PagePool& pool, PhysicalPage page) {
-  const float* values = pool.all_values(page);
+void PagePrefetch::add_values(const HostFields& fields, PhysicalPage page) {
+  const float* values = fields.all_values(page);
   for (int four = 0; four < kFoursOfValues; ++four) add(values + four * 4 * kFloatsPerLine, kFloatsPerLine);
 }
 
 // Without a look at which neighbours may be in the cache: branches on that would be mispredicted.
-void PagePrefetch::add_neighbours(const PagePool& pool, int buffer, PhysicalPage page) {
+void PagePrefetch::add_neighbours(const HostFields& fields, int buffer, PhysicalPage page) {
   constexpr int kSlice = kPageVoxels / kPageSide;
-  const PhysicalPage* beside = pool.info(page).neighbours + 13;
+  const PhysicalPage* beside = fields.info(page).neighbours + 13;
   const auto phi = [&](PhysicalPage neighbour) {
-    return pool.phi(buffer, neighbour == kNoPage ? kOutsidePage : neighbour);
+    return fields.phi(buffer, neighbour == kNoPage ? kOutsidePage : neighbour);
   };
   for (int dx = -1; dx <= 1; ++dx) {
     // Along z a slice, along y a row of each slice.

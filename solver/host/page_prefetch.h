@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "solver/host/page_pool.h"
+#include "solver/host/host_fields.h"
 
 namespace tidemark::solver {
 
@@ -17,10 +17,10 @@ class PagePrefetch {
 
  public:
   // All that is kept for each voxel of the page. To be called at most once, like the next one.
-  void add_values(const PagePool& pool, PhysicalPage page);
+  void add_values(const HostFields& fields, PhysicalPage page);
   // The rows of the neighbours along y and z that touch the page. Those along x lie beside it in memory as a
   // rule, and are brought by themselves.
-  void add_neighbours(const PagePool& pool, int buffer, PhysicalPage page);
+  void add_neighbours(const HostFields& fields, int buffer, PhysicalPage page);
 
   // Asks for everything a few lines at a time: asked for at once they would fill the processor's queue of
   // loads, and the computation would wait behind them.
@@ -45,8 +45,8 @@ class PagePrefetch {
 
  private:
   static constexpr int kFloatsPerLine = 16;
-  static constexpr int kFoursOfValues = PagePool::kFloatsPerPage / (4 * kFloatsPerLine);
-  static_assert(PagePool::kFloatsPerPage % (4 * kFloatsPerLine) == 0);
+  static constexpr int kFoursOfValues = HostFields::kFloatsPerPage / (4 * kFloatsPerLine);
+  static_assert(HostFields::kFloatsPerPage % (4 * kFloatsPerLine) == 0);
   static constexpr int kFoursOfNeighbours = 2 * 3 * (1 + 2);
 
   void add(const float* first, std::ptrdiff_t step) { fours_[count_++] = {first, step}; }

@@ -23,7 +23,7 @@ void QuietPages::clear() {
 }
 
 void QuietPages::wake(PhysicalPage page) {
-  PageInfo& info = pages_.pool().info(page);
+  PageInfo& info = pages_.fields().info(page);
   if (!info.asleep) return;
   info.asleep = false;
   --count_;
@@ -31,7 +31,7 @@ void QuietPages::wake(PhysicalPage page) {
 }
 
 void QuietPages::wake_around(PhysicalPage page) {
-  PageInfo& info = pages_.pool().info(page);
+  PageInfo& info = pages_.fields().info(page);
   info.woke_neighbours = true;
   if (count_ == 0) return;
   for (int n = 0; n < kNeighbours; ++n) {
@@ -40,28 +40,28 @@ void QuietPages::wake_around(PhysicalPage page) {
 }
 
 void QuietPages::wake_all() {
-  pages_.for_each([&](PhysicalPage page) { wake(page); });
+  pages_.memory().for_each_resident([&](PhysicalPage page) { wake(page); });
 }
 
 void QuietPages::put_to_sleep(PhysicalPage page) {
-  PagePool& pool = pages_.pool();
-  PageInfo& info = pool.info(page);
+  const HostFields& fields = pages_.fields();
+  PageInfo& info = fields.info(page);
   info.asleep = true;
   ++count_;
   const int next = 1 - pages_.current();
-  std::copy_n(pages_.phi(page), kPageVoxels, pool.phi(next, page));
-  pool.masks(next, page) = pool.masks(pages_.current(), page);
+  std::copy_n(pages_.phi(page), kPageVoxels, fields.phi(next, page));
+  fields.masks(next, page) = fields.masks(pages_.current(), page);
   states_changed_ = true;
 }
 
 bool QuietPages::is_still(PhysicalPage page) const {
   if (page < kFirstPage) return true;
-  const PageInfo& info = pages_.pool().info(page);
+  const PageInfo& info = pages_.fields().info(page);
   return info.asleep || info.change <= kQuietChange;
 }
 
 bool QuietPages::surroundings_are_still(PhysicalPage page) const {
-  const PageInfo& info = pages_.pool().info(page);
+  const PageInfo& info = pages_.fields().info(page);
   for (int n = 0; n < kNeighbours; ++n) {
     if (within_stencil(n) && !is_still(info.neighbours[n])) return false;
   }
@@ -70,7 +70,7 @@ bool QuietPages::surroundings_are_still(PhysicalPage page) const {
 
 void QuietPages::show(MotionWatch& watch) {
   for (const PhysicalPage page : active_) {
-    PageInfo& info = pages_.pool().info(page);
+    PageInfo& info = pages_.fields().info(page);
     watch.add_page({static_cast<double>(info.content), static_cast<double>(info.near_voxels), info.samples},
                    info.rest);
   }
@@ -80,7 +80,7 @@ void QuietPages::judge() {
   if (!skip_) return;
   std::vector<PhysicalPage> quiet;
   for (const PhysicalPage page : active_) {
-    if (pages_.table().virtual_page(page) < 0) continue;  // freed in this step
+    if (pages_.memory().virtual_page(page) < 0) continue;  // freed in this step
     // Itself first, because it most often decides.
     if (is_still(page) && surroundings_are_still(page)) quiet.push_back(page);
   }
@@ -89,7 +89,7 @@ void QuietPages::judge() {
 
 void QuietPages::begin_window() {
   for (const PhysicalPage page : active_) {
-    PageInfo& info = pages_.pool().info(page);
+    PageInfo& info = pages_.fields().info(page);
     info.change = 0.0F;
     info.content = 0.0F;
     info.near_voxels = 0;
@@ -104,7 +104,7 @@ void QuietPages::refresh_active() {
   note_changes();
   active_.clear();
   pages_.for_each_in_order([&](PhysicalPage page) {
-    const PageInfo& info = pages_.pool().info(page);
+    const PageInfo& info = pages_.fields().info(page);
     if (!info.asleep) active_.push_back(page);
   });
   states_changed_ = false;
@@ -115,24 +115,24 @@ void QuietPages::refresh_active() {
 void QuietPages::note_changes() const {
   if (!computed_) return;
   for (const PhysicalPage page : active_) {
-    if (pages_.table().virtual_page(page) >= 0) pages_.note_change(page);
+    if (pages_.memory().virtual_page(page) >= 0) pages_.note_change(page);
   }
   computed_ = false;
 }
 
 std::vector<std::int64_t> QuietPages::virtual_pages() const {
   std::vector<std::int64_t> pages;
-  pages_.for_each([&](PhysicalPage page) {
-    if (pages_.pool().info(page).asleep) pages.push_back(pages_.table().virtual_page(page));
+  pages_.memory().for_each_resident([&](PhysicalPage page) {
+    if (pages_.fields().info(page).asleep) pages.push_back(pages_.memory().virtual_page(page));
   });
   return pages;
 }
 
 std::vector<std::int64_t> QuietPages::moving_pages(const MotionWatch& watch) const {
   std::vector<std::int64_t> pages;
-  pages_.for_each([&](PhysicalPage page) {
-    const PageInfo& info = pages_.pool().info(page);
-    if (!info.asleep && watch.is_moving(info.rest)) pages.push_back(pages_.table().virtual_page(page));
+  pages_.memory().for_each_resident([&](PhysicalPage page) {
+    const PageInfo& info = pages_.fields().info(page);
+    if (!info.asleep && watch.is_moving(info.rest)) pages.push_back(pages_.memory().virtual_page(page));
   });
   return pages;
 }
@@ -143,13 +143,13 @@ std::int64_t QuietPages::state_bytes() const {
 
 Status QuietPages::validate() const {
   const PageTable& table = pages_.table();
-  const PagePool& pool = pages_.pool();
+  const HostFields& fields = pages_.fields();
   Status result;
   std::int64_t asleep = 0;
-  pages_.for_each([&](PhysicalPage page) {
-    if (!pool.info(page).asleep) return;
+  pages_.memory().for_each_resident([&](PhysicalPage page) {
+    if (!fields.info(page).asleep) return;
     ++asleep;
-    if (std::equal(pool.phi(0, page), pool.phi(0, page) + kPageVoxels, pool.phi(1, page))) return;
+    if (std::equal(fields.phi(0, page), fields.phi(0, page) + kPageVoxels, fields.phi(1, page))) return;
     result = fail(ErrorKind::internal, "page {} is quiet, but its two buffers differ", page);
   });
   if (!result) return result;
@@ -163,7 +163,7 @@ Status QuietPages::validate() const {
   }
   std::int64_t before = -1;
   for (const PhysicalPage page : active_) {
-    if (table.virtual_page(page) <= before || pool.info(page).asleep) {
+    if (table.virtual_page(page) <= before || fields.info(page).asleep) {
       return fail(ErrorKind::internal, "page {} is not in its place in the list of active pages", page);
     }
     before = table.virtual_page(page);

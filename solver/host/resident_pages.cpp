@@ -11,26 +11,19 @@ ResidentPages::ResidentPages(const Contents& contents, ThreadPool& threads, std:
   clear();
 }
 
-// As many pages as the volume has or the budget allows.
-PhysicalPage ResidentPages::pool_capacity() const {
-  const std::int64_t page_bytes = PagePool::state_bytes(1) + PagePool::data_bytes(1);
-  const std::int64_t affordable = memory_budget_ / page_bytes + 1;
-  return static_cast<PhysicalPage>(std::min(affordable, table_.layout().page_count()) + kFirstPage);
-}
-
 float ResidentPages::constant(bool inside) const {
   return static_cast<float>(inside ? contents_.model.band() : -contents_.model.band());
 }
 
 void ResidentPages::clear() {
-  table_ = PageTable(PageLayout(contents_.geometry.size, kDefaultPageShape));
-  pool_ = PagePool(pool_capacity());
-  pool_.keep_advection(contents_.speed->advects());
+  memory_ = PagedMemory<3>(PageLayout(contents_.geometry.size, kDefaultPageShape), memory_budget_);
+  fields_ = HostFields(memory_);
+  fields_.keep_advection(contents_.speed->advects());
   for (const PhysicalPage page : {kOutsidePage, kInsidePage}) {
     const bool inside = page == kInsidePage;
     for (const int buffer : {0, 1}) {
-      std::fill_n(pool_.phi(buffer, page), kPageVoxels, constant(inside));
-      pool_.masks(buffer, page) = RowMasks::constant(inside);
+      std::fill_n(fields_.phi(buffer, page), kPageVoxels, constant(inside));
+      fields_.masks(buffer, page) = RowMasks::constant(inside);
     }
   }
   current_ = 0;
@@ -39,13 +32,12 @@ void ResidentPages::clear() {
   listed_in_order_ = 0;
   needs_activation_ = false;
   known_ = Field::empty(contents_.geometry, contents_.model.band());
-  changed_ = ChangedPages(table_.layout().page_count());
 }
 
 Field ResidentPages::copy() const {
   Field field = known_;
-  changed_.take([&](std::int64_t page) {
-    const PhysicalPage physical = table_.physical(page);
+  memory_.take_changes([&](std::int64_t page) {
+    const PhysicalPage physical = memory_.physical(page);
     if (is_static_page(physical)) {
       field.pages.set_constant(page, physical == kInsidePage ? Field::Kind::inside : Field::Kind::outside);
     } else {
@@ -57,27 +49,14 @@ Field ResidentPages::copy() const {
 
 void ResidentPages::know(const SharedPages& pages) {
   known_.pages = pages;
-  changed_ = ChangedPages(table_.layout().page_count());
-}
-
-Status ResidentPages::check_budget(std::int64_t more_pages) const {
-  const std::int64_t capacity =
-      std::max<std::int64_t>(table_.capacity(), table_.capacity() + more_pages - table_.free_count());
-  // The lists and tables that grow with the pages take at most this much more for each, their reserve
-  // included.
-  constexpr std::int64_t kListBytesPerPage = 64;
-  const std::int64_t bytes = PagePool::state_bytes(capacity) + PagePool::data_bytes(capacity) +
-                             pool_.advection_bytes(capacity) + table_.bytes() + capacity * kListBytesPerPage;
-  if (bytes <= memory_budget_) return {};
-  return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
-              capacity, bytes >> 20, memory_budget_ >> 20);
+  memory_.take_changes([](std::int64_t) {});
 }
 
 // Which of a page's voxels are inside the volume.
 void ResidentPages::describe(PhysicalPage page) {
-  PageInfo& info = pool_.info(page);
+  PageInfo& info = fields_.info(page);
   info = PageInfo();
-  const Index3 valid = table_.layout().valid_shape(table_.virtual_page(page));
+  const Index3 valid = memory_.layout().valid_shape(memory_.virtual_page(page));
   for (int axis = 0; axis < 3; ++axis) info.valid[axis] = static_cast<std::uint8_t>(valid[axis]);
   info.padding = padding_rows(info.valid[1], info.valid[2]);
   link_constraints(page);
@@ -85,33 +64,33 @@ void ResidentPages::describe(PhysicalPage page) {
 
 void ResidentPages::link_constraints(PhysicalPage page) {
   const Constraints* constraints = contents_.constraints.get();
-  pool_.info(page).constraints =
-      constraints == nullptr ? nullptr : constraints->page(table_.virtual_page(page));
+  fields_.info(page).constraints =
+      constraints == nullptr ? nullptr : constraints->page(memory_.virtual_page(page));
 }
 
 void ResidentPages::link_constraints() {
-  for_each([&](PhysicalPage page) { link_constraints(page); });
+  memory_.for_each_resident([&](PhysicalPage page) { link_constraints(page); });
 }
 
 // Tells the resident pages around `coordinates` which physical page is there now.
 void ResidentPages::tell_neighbours(Index3 coordinates, PhysicalPage page) {
   for (int n = 0; n < kNeighbours; ++n) {
-    const PhysicalPage other = table_.physical(coordinates + neighbour_step(n));
-    if (other >= kFirstPage) pool_.info(other).neighbours[opposite_neighbour(n)] = page;
+    const PhysicalPage other = memory_.physical(coordinates + neighbour_step(n));
+    if (other >= kFirstPage) fields_.info(other).neighbours[opposite_neighbour(n)] = page;
   }
 }
 
 void ResidentPages::link_neighbours(PhysicalPage page) {
-  const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
+  const Index3 coordinates = memory_.layout().page_coordinates(memory_.virtual_page(page));
   for (int n = 0; n < kNeighbours; ++n) {
-    pool_.info(page).neighbours[n] = table_.physical(coordinates + neighbour_step(n));
+    fields_.info(page).neighbours[n] = memory_.physical(coordinates + neighbour_step(n));
   }
   tell_neighbours(coordinates, page);
 }
 
 std::uint8_t ResidentPages::requests(PhysicalPage page, int buffer) {
-  PageInfo& info = pool_.info(page);
-  const RowMasks& masks = pool_.masks(buffer, page);
+  PageInfo& info = fields_.info(page);
+  const RowMasks& masks = fields_.masks(buffer, page);
   std::uint8_t code = 0;
   for (int face = 0; face < kFaces; ++face) {
     const PhysicalPage across = info.neighbours[face_neighbour(face)];
@@ -129,11 +108,11 @@ std::uint8_t ResidentPages::requests(PhysicalPage page, int buffer) {
 }
 
 Status ResidentPages::grant_requests(PhysicalPage page, std::uint8_t code) {
-  const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
+  const Index3 coordinates = memory_.layout().page_coordinates(memory_.virtual_page(page));
   for (int face = 0; face < kFaces; ++face) {
     if ((code & request_bit(face)) == 0) continue;
-    const std::int64_t across = table_.layout().page_number(coordinates + kFaceSteps[face]);
-    if (!is_static_page(table_.physical(across))) continue;  // asked for by another page, too
+    const std::int64_t across = memory_.layout().page_number(coordinates + kFaceSteps[face]);
+    if (!is_static_page(memory_.physical(across))) continue;  // asked for by another page, too
     if (auto made = make_resident(across); !made) {
       needs_activation_ = true;
       return pass_on(made);
@@ -144,7 +123,7 @@ Status ResidentPages::grant_requests(PhysicalPage page, std::uint8_t code) {
 
 Status ResidentPages::activate_all() {
   std::vector<PhysicalPage> pages;
-  for_each([&](PhysicalPage page) { pages.push_back(page); });
+  memory_.for_each_resident([&](PhysicalPage page) { pages.push_back(page); });
   needs_activation_ = false;
   return activate(pages);
 }
@@ -153,9 +132,9 @@ Status ResidentPages::activate_around(const std::vector<std::int64_t>& virtual_p
   if (needs_activation_) return activate_all();
   std::vector<PhysicalPage> pages;
   for (const std::int64_t virtual_page : virtual_pages) {
-    const Index3 coordinates = table_.layout().page_coordinates(virtual_page);
+    const Index3 coordinates = memory_.layout().page_coordinates(virtual_page);
     for (int n = 0; n < kNeighbours; ++n) {
-      if (const PhysicalPage page = table_.physical(coordinates + neighbour_step(n)); page >= kFirstPage)
+      if (const PhysicalPage page = memory_.physical(coordinates + neighbour_step(n)); page >= kFirstPage)
         pages.push_back(page);
     }
   }
@@ -178,20 +157,17 @@ Status ResidentPages::activate(const std::vector<PhysicalPage>& pages) {
 }
 
 Result<PhysicalPage> ResidentPages::make_resident(std::int64_t virtual_page) {
-  if (table_.free_count() == 0) {
-    TIDEMARK_TRY(check_budget(1));
-  }
-  const bool inside = table_.physical(virtual_page) == kInsidePage;
-  const PhysicalPage page = table_.allocate(virtual_page);
+  const bool inside = memory_.physical(virtual_page) == kInsidePage;
+  const Result<PhysicalPage> made = memory_.make_resident(virtual_page);
+  TIDEMARK_TRY(made);
+  const PhysicalPage page = *made;
   describe(page);
   RowMasks masks = RowMasks::constant(inside);
-  masks.add_padding(pool_.info(page).padding);
-  pool_.masks(0, page) = pool_.masks(1, page) = masks;
+  masks.add_padding(fields_.info(page).padding);
+  fields_.masks(0, page) = fields_.masks(1, page) = masks;
   link_neighbours(page);
   new_pages_.push_back(page);
   listed_.push_back(virtual_page);
-  changed_.add(virtual_page);
-  peak_ = std::max(peak_, table_.resident());
   return page;
 }
 
@@ -201,9 +177,9 @@ void ResidentPages::fill_new_pages() {
                       for (std::int64_t i = begin; i < end; ++i) {
                         const PhysicalPage page = new_pages_[static_cast<std::size_t>(i)];
                         // A page without voxels that are W is all -W: constant pages have one kind of row.
-                        const bool inside = pool_.masks(0, page).all_inside();
+                        const bool inside = fields_.masks(0, page).all_inside();
                         for (const int buffer : {0, 1}) {
-                          std::fill_n(pool_.phi(buffer, page), kPageVoxels, constant(inside));
+                          std::fill_n(fields_.phi(buffer, page), kPageVoxels, constant(inside));
                         }
                         fill_motion(page);
                       }
@@ -212,20 +188,20 @@ void ResidentPages::fill_new_pages() {
 }
 
 void ResidentPages::fill_motion(PhysicalPage page) {
-  const std::int64_t virtual_page = table_.virtual_page(page);
-  const Index3 first = table_.layout().first_voxel(virtual_page);
-  const Index3 valid = table_.layout().valid_shape(virtual_page);
+  const std::int64_t virtual_page = memory_.virtual_page(page);
+  const Index3 first = memory_.layout().first_voxel(virtual_page);
+  const Index3 valid = memory_.layout().valid_shape(virtual_page);
   const auto constants = contents_.model.constants<double>();
-  fill_data_motion(*contents_.speed, constants, first, valid, pool_.data_motion(page));
-  if (float* advection = pool_.advection(page); advection != nullptr) {
+  fill_data_motion(*contents_.speed, constants, first, valid, fields_.data_motion(page));
+  if (float* advection = fields_.advection(page); advection != nullptr) {
     fill_advection(*contents_.speed, constants, first, valid, advection);
   }
 }
 
 void ResidentPages::refill() {
-  pool_.keep_advection(contents_.speed->advects());
+  fields_.keep_advection(contents_.speed->advects());
   std::vector<PhysicalPage> pages;
-  for_each([&](PhysicalPage page) { pages.push_back(page); });
+  memory_.for_each_resident([&](PhysicalPage page) { pages.push_back(page); });
   threads_.for_each(static_cast<std::int64_t>(pages.size()), 8,
                     [&](std::int64_t begin, std::int64_t end, int) {
                       for (std::int64_t i = begin; i < end; ++i) {
@@ -237,34 +213,31 @@ void ResidentPages::refill() {
 // Whether everything that touches the faces of a constant page is the same constant.
 bool ResidentPages::surroundings_are_constant(PhysicalPage page, bool inside) const {
   for (int face = 0; face < kFaces; ++face) {
-    const PhysicalPage across = pool_.info(page).neighbours[face_neighbour(face)];
+    const PhysicalPage across = fields_.info(page).neighbours[face_neighbour(face)];
     if (across == kNoPage) continue;
-    if (!face_is_constant(pool_.masks(current_, across), opposite_face(face), inside)) return false;
+    if (!face_is_constant(fields_.masks(current_, across), opposite_face(face), inside)) return false;
   }
   return true;
 }
 
 void ResidentPages::release_if_surrounded(PhysicalPage page) {
-  const bool inside = pool_.masks(current_, page).all_inside();
+  const bool inside = fields_.masks(current_, page).all_inside();
   if (!surroundings_are_constant(page, inside)) return;
-  const std::int64_t virtual_page = table_.virtual_page(page);
-  table_.release(virtual_page, inside);
-  changed_.add(virtual_page);
-  tell_neighbours(table_.layout().page_coordinates(virtual_page), inside ? kInsidePage : kOutsidePage);
+  const std::int64_t virtual_page = memory_.virtual_page(page);
+  memory_.release(virtual_page, inside);
+  tell_neighbours(memory_.layout().page_coordinates(virtual_page), inside ? kInsidePage : kOutsidePage);
 }
 
 void ResidentPages::set_static(Index3 coordinates, bool inside) {
-  const std::int64_t page = table_.layout().page_number(coordinates);
-  table_.set_static(page, inside);
-  changed_.add(page);
+  memory_.set_static(memory_.layout().page_number(coordinates), inside);
   tell_neighbours(coordinates, inside ? kInsidePage : kOutsidePage);
 }
 
 void ResidentPages::refresh(PhysicalPage page) {
-  const PageInfo& info = pool_.info(page);
-  pool_.masks(0, page) = pool_.masks(1, page) =
+  const PageInfo& info = fields_.info(page);
+  fields_.masks(0, page) = fields_.masks(1, page) =
       masks_of(phi(page), info.valid[0], info.padding, constant(true));
-  std::copy_n(phi(page), kPageVoxels, pool_.phi(1 - current_, page));
+  std::copy_n(phi(page), kPageVoxels, fields_.phi(1 - current_, page));
   note_change(page);
 }
 
@@ -279,18 +252,18 @@ void ResidentPages::put_in_order() {
 }
 
 std::int64_t ResidentPages::state_bytes() const {
-  return PagePool::state_bytes(table_.capacity()) + table_.bytes() +
+  return memory_.field_bytes() - drive_bytes() + memory_.table_bytes() +
          static_cast<std::int64_t>(listed_.capacity() * sizeof(std::int64_t));
 }
 
 Status ResidentPages::validate() const {
-  TIDEMARK_TRY(table_.validate());
+  TIDEMARK_TRY(table().validate());
   Status result;
-  for_each([&](PhysicalPage page) {
-    const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
+  memory_.for_each_resident([&](PhysicalPage page) {
+    const Index3 coordinates = memory_.layout().page_coordinates(memory_.virtual_page(page));
     for (int n = 0; n < kNeighbours && result; ++n) {
-      const PhysicalPage told = pool_.info(page).neighbours[n];
-      const PhysicalPage there = table_.physical(coordinates + neighbour_step(n));
+      const PhysicalPage told = fields_.info(page).neighbours[n];
+      const PhysicalPage there = memory_.physical(coordinates + neighbour_step(n));
       if (told == there) continue;
       result = fail(ErrorKind::internal, "page {}: neighbour {} is {} in the page, {} in the table", page, n,
                     told, there);
@@ -301,8 +274,8 @@ Status ResidentPages::validate() const {
 
 Status ResidentPages::validate(const Field& copy) const {
   Status result;
-  for_each([&](PhysicalPage page) {
-    const std::int64_t virtual_page = table_.virtual_page(page);
+  memory_.for_each_resident([&](PhysicalPage page) {
+    const std::int64_t virtual_page = memory_.virtual_page(page);
     const float* copied = copy.pages.values(virtual_page);
     if (copied != nullptr && std::equal(copied, copied + kPageVoxels, phi(page))) return;
     result = fail(ErrorKind::internal, "the copy of phi does not hold what page {} holds", virtual_page);

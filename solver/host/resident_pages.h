@@ -8,9 +8,8 @@
 
 #include "core/thread_pool.h"
 #include "solver/field.h"
-#include "solver/host/page_pool.h"
+#include "solver/host/host_fields.h"
 #include "solver/model.h"
-#include "solver/paging/changed_pages.h"
 
 namespace tidemark::solver {
 
@@ -27,23 +26,20 @@ class ResidentPages {
   ResidentPages(const Contents& contents, ThreadPool& threads, std::int64_t memory_budget);
   void clear();
 
-  [[nodiscard]] const PageTable& table() const { return table_; }
-  [[nodiscard]] PagePool& pool() { return pool_; }
-  [[nodiscard]] const PagePool& pool() const { return pool_; }
+  [[nodiscard]] const PagedMemory<3>& memory() const { return memory_; }
+  [[nodiscard]] const PageTable& table() const { return memory_.table(); }
+  [[nodiscard]] const HostFields& fields() const { return fields_; }
 
-  // The buffer of the pool that holds phi. A step writes the other one.
+  // The buffer that holds phi. A step writes the other one.
   [[nodiscard]] int current() const { return current_; }
   void swap_buffers() { current_ = 1 - current_; }
-  [[nodiscard]] float* phi(PhysicalPage page) const { return pool_.phi(current_, page); }
+  [[nodiscard]] float* phi(PhysicalPage page) const { return fields_.phi(current_, page); }
   // Shares what has not changed with the copy before it, and with the field that was restored.
   [[nodiscard]] Field copy() const;
   // phi is what these pages say, to the last bit.
   void know(const SharedPages& pages);
   // phi of the page has changed.
-  void note_change(PhysicalPage page) const { changed_.add(table_.virtual_page(page)); }
-
-  // Fails (ErrorKind::capability) when so many more pages are above the memory budget.
-  [[nodiscard]] Status check_budget(std::int64_t more_pages) const;
+  void note_change(PhysicalPage page) const { memory_.note_change(memory_.virtual_page(page)); }
 
   // What a page asks for after a step that wrote `buffer`, as bits of page_code.h.
   [[nodiscard]] std::uint8_t requests(PhysicalPage page, int buffer);
@@ -70,18 +66,12 @@ class ResidentPages {
   // After the constraints changed: what pages know of them. phi is as before.
   void link_constraints();
 
-  template <class Visit>
-  void for_each(Visit visit) const {
-    for (PhysicalPage page = kFirstPage; page < table_.capacity(); ++page) {
-      if (table_.virtual_page(page) >= 0) visit(page);
-    }
-  }
-  // In the order of virtual pages.
+  // Visits the resident pages in the order of virtual pages.
   template <class Visit>
   void for_each_in_order(Visit visit) {
     put_in_order();
     std::erase_if(listed_, [&](std::int64_t virtual_page) {
-      const PhysicalPage page = table_.physical(virtual_page);
+      const PhysicalPage page = memory_.physical(virtual_page);
       if (is_static_page(page)) return true;
       visit(page);
       return false;
@@ -89,7 +79,8 @@ class ResidentPages {
     listed_in_order_ = std::ssize(listed_);
   }
 
-  [[nodiscard]] std::int64_t peak() const { return peak_; }
+  // Of what drives the surface in all pages, and of all else.
+  [[nodiscard]] std::int64_t drive_bytes() const { return table().capacity() * fields_.drive_bytes(); }
   [[nodiscard]] std::int64_t state_bytes() const;
   // The tables, and what each page knows of its neighbours.
   [[nodiscard]] Status validate() const;
@@ -97,7 +88,6 @@ class ResidentPages {
   [[nodiscard]] Status validate(const Field& copy) const;
 
  private:
-  [[nodiscard]] PhysicalPage pool_capacity() const;
   [[nodiscard]] float constant(bool inside) const;
   void describe(PhysicalPage page);
   void link_neighbours(PhysicalPage page);
@@ -111,8 +101,8 @@ class ResidentPages {
   Contents contents_;
   ThreadPool& threads_;
   std::int64_t memory_budget_;
-  PageTable table_;
-  PagePool pool_{kFirstPage};
+  PagedMemory<3> memory_;
+  HostFields fields_;
   int current_ = 0;
   std::vector<PhysicalPage> new_pages_;  // not filled yet
   // The virtual numbers of all resident pages, and of those freed since they were visited in order: first so
@@ -120,9 +110,7 @@ class ResidentPages {
   std::vector<std::int64_t> listed_;
   std::ptrdiff_t listed_in_order_ = 0;
   bool needs_activation_ = false;  // the budget stopped an allocation
-  std::int64_t peak_ = 0;
-  mutable Field known_;           // the last copy
-  mutable ChangedPages changed_;  // since then
+  mutable Field known_;            // the last copy; memory_ knows what has changed since
 };
 
 }  // namespace tidemark::solver

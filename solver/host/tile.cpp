@@ -38,16 +38,16 @@ struct ConstantRows {
   Rows outside;
 };
 
-ConstantRows constant_rows(const PagePool& pool, int buffer, const PhysicalPage* pages) {
-  const RowMasks& centre = pool.masks(buffer, pages[0]);
+ConstantRows constant_rows(const HostFields& fields, int buffer, const PhysicalPage* pages) {
+  const RowMasks& centre = fields.masks(buffer, pages[0]);
   ConstantRows rows{centre.inside, centre.outside};
   if (pages[-1] != kNoPage) {
-    rows.inside &= pool.masks(buffer, pages[-1]).inside_last;
-    rows.outside &= pool.masks(buffer, pages[-1]).outside_last;
+    rows.inside &= fields.masks(buffer, pages[-1]).inside_last;
+    rows.outside &= fields.masks(buffer, pages[-1]).outside_last;
   }
   if (pages[1] != kNoPage) {
-    rows.inside &= pool.masks(buffer, pages[1]).inside_first;
-    rows.outside &= pool.masks(buffer, pages[1]).outside_first;
+    rows.inside &= fields.masks(buffer, pages[1]).inside_first;
+    rows.outside &= fields.masks(buffer, pages[1]).outside_first;
   }
   return rows;
 }
@@ -66,13 +66,13 @@ Rows three_along_z(Rows below, Rows page, Rows above) {
 }
 
 // The constant rows of the three columns at dz whose neighbours along y are constant, too.
-ConstantRows constant_slices(const PagePool& pool, int buffer, const PhysicalPage* pages) {
-  const ConstantRows page = constant_rows(pool, buffer, pages);
+ConstantRows constant_slices(const HostFields& fields, int buffer, const PhysicalPage* pages) {
+  const ConstantRows page = constant_rows(fields, buffer, pages);
   // The volume's last row stands for the one beyond it.
   ConstantRows below{page.inside << 7U, page.outside << 7U};
   ConstantRows above{page.inside >> 7U, page.outside >> 7U};
-  if (pages[-3] != kNoPage) below = constant_rows(pool, buffer, pages - 3);
-  if (pages[3] != kNoPage) above = constant_rows(pool, buffer, pages + 3);
+  if (pages[-3] != kNoPage) below = constant_rows(fields, buffer, pages - 3);
+  if (pages[3] != kNoPage) above = constant_rows(fields, buffer, pages + 3);
   return {three_along_y(below.inside, page.inside, above.inside),
           three_along_y(below.outside, page.outside, above.outside)};
 }
@@ -120,13 +120,13 @@ void gather_short_row(const PageRow& from, int offset, int width, Tile& tile, in
 
 }  // namespace
 
-RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info) {
+RowWork find_row_work(const HostFields& fields, int buffer, const PageInfo& info) {
   const PhysicalPage* pages = info.neighbours + kItself;
-  const ConstantRows page = constant_slices(pool, buffer, pages);
+  const ConstantRows page = constant_slices(fields, buffer, pages);
   ConstantRows below{page.inside << 56U, page.outside << 56U};
   ConstantRows above{page.inside >> 56U, page.outside >> 56U};
-  if (pages[-9] != kNoPage) below = constant_slices(pool, buffer, pages - 9);
-  if (pages[9] != kNoPage) above = constant_slices(pool, buffer, pages + 9);
+  if (pages[-9] != kNoPage) below = constant_slices(fields, buffer, pages - 9);
+  if (pages[9] != kNoPage) above = constant_slices(fields, buffer, pages + 9);
   RowWork work;
   work.inside = three_along_z(below.inside, page.inside, above.inside) & ~info.padding;
   work.outside = three_along_z(below.outside, page.outside, above.outside) & ~info.padding;
@@ -149,7 +149,7 @@ unsigned slices_read(Rows rows) {
   return slices;
 }
 
-void gather(const PagePool& pool, int buffer, const PageInfo& info, unsigned slices, Tile& tile) {
+void gather(const HostFields& fields, int buffer, const PageInfo& info, unsigned slices, Tile& tile) {
   const Span y_range = y_span(info);
   const Span z_range = z_span(info);
   const int width = info.valid[0];
@@ -158,7 +158,7 @@ void gather(const PagePool& pool, int buffer, const PageInfo& info, unsigned sli
     const int from_z = z_range.clamp(z);
     for (int y = -1; y <= kPageSide; ++y) {
       const int from_y = y_range.clamp(y);
-      const PageRow from = page_row(pool, buffer, info, page_step(from_y), page_step(from_z));
+      const PageRow from = page_row(fields, buffer, info, page_step(from_y), page_step(from_z));
       const int offset = ((from_z & 7) * kPageSide + (from_y & 7)) * kPageSide;
       if (width == kPageSide) {
         gather_row(from, offset, tile, y, z);

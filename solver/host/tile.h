@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "solver/host/page_pool.h"
+#include "solver/host/host_fields.h"
 #include "solver/host/row_masks.h"
 
 namespace tidemark::solver {
@@ -41,7 +41,7 @@ struct RowWork {
 
 // A row stays as it is when it and the eight rows around it are all W or all -W, and so are the voxels of the
 // neighbouring pages that touch them.
-RowWork find_row_work(const PagePool& pool, int buffer, const PageInfo& info);
+RowWork find_row_work(const HostFields& fields, int buffer, const PageInfo& info);
 
 // Rows of three pages side by side along x.
 struct PageRow {
@@ -51,9 +51,9 @@ struct PageRow {
 };
 
 // The pages at (dy, dz) beside a page; null where the volume ends.
-inline PageRow page_row(const PagePool& pool, int buffer, const PageInfo& info, int dy, int dz) {
+inline PageRow page_row(const HostFields& fields, int buffer, const PageInfo& info, int dy, int dz) {
   const PhysicalPage* pages = info.neighbours + neighbour_number(0, dy, dz);
-  const auto values = [&](PhysicalPage page) { return page == kNoPage ? nullptr : pool.phi(buffer, page); };
+  const auto values = [&](PhysicalPage page) { return page == kNoPage ? nullptr : fields.phi(buffer, page); };
   return {values(pages[-1]), values(pages[0]), values(pages[1])};
 }
 
@@ -65,6 +65,6 @@ unsigned slices_read(Rows rows);
 
 // Gathers those slices of a page; at the volume's border the index is clamped (Neumann). The kernels gather
 // pages inside the volume by themselves where a vector is as long as a row.
-void gather(const PagePool& pool, int buffer, const PageInfo& info, unsigned slices, Tile& tile);
+void gather(const HostFields& fields, int buffer, const PageInfo& info, unsigned slices, Tile& tile);
 
 }  // namespace tidemark::solver

@@ -1,39 +1,69 @@
 #include "solver/paging/page_layout.h"
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace tidemark::solver {
 
-PageLayout::PageLayout(Index3 volume_size, Index3 page_shape)
-    : volume_size_(volume_size),
+template <int kDimensions>
+BasicPageLayout<kDimensions>::BasicPageLayout(Coordinates domain_size, Coordinates page_shape)
+    : domain_size_(domain_size),
       page_shape_(page_shape),
-      pages_((volume_size + page_shape - Index3(1)) / page_shape) {}
+      pages_((domain_size + page_shape - Coordinates(1)) / page_shape) {}
 
-VirtualAddress PageLayout::translate(Index3 voxel) const {
-  const Index3 page = voxel / page_shape_;
-  const Index3 inside = voxel - page * page_shape_;
-  return {page_number(page), inside.x + page_shape_.x * (inside.y + page_shape_.y * inside.z)};
+template <int kDimensions>
+std::int64_t BasicPageLayout<kDimensions>::product(Coordinates sizes) {
+  std::int64_t result = 1;
+  for (int axis = 0; axis < kDimensions; ++axis) result *= sizes[axis];
+  return result;
 }
 
-Index3 PageLayout::page_coordinates(std::int64_t page) const {
-  return {page % pages_.x, page / pages_.x % pages_.y, page / (pages_.x * pages_.y)};
+template <int kDimensions>
+std::int64_t BasicPageLayout<kDimensions>::number_in(Coordinates box, Coordinates at) {
+  std::int64_t number = 0;
+  for (int axis = kDimensions; axis-- > 0;) number = number * box[axis] + at[axis];
+  return number;
 }
 
-std::int64_t PageLayout::page_number(Index3 coordinates) const {
-  return coordinates.x + pages_.x * (coordinates.y + pages_.y * coordinates.z);
+template <int kDimensions>
+VirtualAddress BasicPageLayout<kDimensions>::translate(Coordinates voxel) const {
+  const Coordinates page = voxel / page_shape_;
+  return {page_number(page), number_in(page_shape_, voxel - page * page_shape_)};
 }
 
-bool PageLayout::contains_page(Index3 coordinates) const {
-  return coordinates.x >= 0 && coordinates.y >= 0 && coordinates.z >= 0 && coordinates.x < pages_.x &&
-         coordinates.y < pages_.y && coordinates.z < pages_.z;
+template <int kDimensions>
+Index<kDimensions> BasicPageLayout<kDimensions>::page_coordinates(std::int64_t page) const {
+  Coordinates coordinates;
+  for (int axis = 0; axis < kDimensions; ++axis) {
+    coordinates[axis] = page % pages_[axis];
+    page /= pages_[axis];
+  }
+  return coordinates;
 }
 
-Index3 PageLayout::first_voxel(std::int64_t page) const {
+template <int kDimensions>
+std::int64_t BasicPageLayout<kDimensions>::page_number(Coordinates coordinates) const {
+  return number_in(pages_, coordinates);
+}
+
+template <int kDimensions>
+bool BasicPageLayout<kDimensions>::contains_page(Coordinates coordinates) const {
+  return glm::all(glm::greaterThanEqual(coordinates, Coordinates(0))) &&
+         glm::all(glm::lessThan(coordinates, pages_));
+}
+
+template <int kDimensions>
+Index<kDimensions> BasicPageLayout<kDimensions>::first_voxel(std::int64_t page) const {
   return page_coordinates(page) * page_shape_;
 }
 
-Index3 PageLayout::valid_shape(std::int64_t page) const {
-  return glm::min(page_shape_, volume_size_ - first_voxel(page));
+template <int kDimensions>
+Index<kDimensions> BasicPageLayout<kDimensions>::valid_shape(std::int64_t page) const {
+  return glm::min(page_shape_, domain_size_ - first_voxel(page));
 }
+
+template class BasicPageLayout<2>;
+template class BasicPageLayout<3>;
+template class BasicPageLayout<4>;
 
 }  // namespace tidemark::solver

@@ -4,10 +4,8 @@
 
 namespace tidemark::solver {
 
-PageTable::PageTable(const PageLayout& layout)
-    : layout_(layout),
-      table_(static_cast<std::size_t>(layout.page_count()), kOutsidePage),
-      inverse_(kFirstPage, -1) {}
+PageTable::PageTable(std::int64_t pages)
+    : table_(static_cast<std::size_t>(pages), kOutsidePage), inverse_(kFirstPage, -1) {}
 
 PhysicalPage PageTable::allocate(std::int64_t page) {
   assert(is_static_page(physical(page)));
@@ -47,7 +45,7 @@ std::int64_t PageTable::bytes() const {
 
 Status PageTable::validate() const {
   std::int64_t resident_entries = 0;
-  for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
+  for (std::int64_t page = 0; page < std::ssize(table_); ++page) {
     const PhysicalPage entry = physical(page);
     if (is_static_page(entry)) continue;
     ++resident_entries;

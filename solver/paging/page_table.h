@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/result.h"
-#include "solver/paging/page_layout.h"
 
 namespace tidemark::solver {
 
@@ -14,7 +13,7 @@ using PhysicalPage = std::int32_t;
 inline constexpr PhysicalPage kOutsidePage = 0;
 inline constexpr PhysicalPage kInsidePage = 1;
 inline constexpr PhysicalPage kFirstPage = 2;  // of those that are allocated and freed
-inline constexpr PhysicalPage kNoPage = -1;    // beyond the volume's border
+inline constexpr PhysicalPage kNoPage = -1;    // beyond the domain's border
 
 constexpr bool is_static_page(PhysicalPage page) {
   return page == kOutsidePage || page == kInsidePage;
@@ -28,17 +27,12 @@ inline constexpr int kConstantStepsBeforeRelease = 2;
 class PageTable {
  public:
   PageTable() = default;
-  // Everything is outside.
-  explicit PageTable(const PageLayout& layout);
+  // Of so many virtual pages. Everything is outside.
+  explicit PageTable(std::int64_t pages);
 
-  [[nodiscard]] const PageLayout& layout() const { return layout_; }
-
-  // The physical page of a virtual one; kNoPage for coordinates outside V_P.
+  // The physical page of a virtual one.
   [[nodiscard]] PhysicalPage physical(std::int64_t page) const {
     return table_[static_cast<std::size_t>(page)];
-  }
-  [[nodiscard]] PhysicalPage physical(Index3 coordinates) const {
-    return layout_.contains_page(coordinates) ? physical(layout_.page_number(coordinates)) : kNoPage;
   }
   // The virtual page that a physical one holds; -1 when it is free or static.
   [[nodiscard]] std::int64_t virtual_page(PhysicalPage page) const {
@@ -67,7 +61,6 @@ class PageTable {
   [[nodiscard]] Status validate() const;
 
  private:
-  PageLayout layout_;
   std::vector<PhysicalPage> table_;
   std::vector<std::int64_t> inverse_;
   std::vector<PhysicalPage> free_;  // a stack

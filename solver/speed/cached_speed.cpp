@@ -75,7 +75,7 @@ CachedSpeed::~CachedSpeed() {
 std::shared_ptr<const SpeedFunction> CachedSpeed::following(const Field& phi) const {
   auto next = function_->following(phi);
   if (next == nullptr) return nullptr;
-  auto cached = std::make_shared<CachedSpeed>(next, layout_.volume_size());
+  auto cached = std::make_shared<CachedSpeed>(next, layout_.domain_size());
   if (const auto* local = dynamic_cast<const LocallyFollowing*>(next.get())) cached->take_over(*this, *local);
   return cached;
 }

@@ -111,13 +111,13 @@ void Constraints::set(const std::function<bool(Index3)>& chosen, Index3 first, I
 
 void Constraints::set(const Mask& mask, Constraint what) {
   set([&](Index3 voxel) { return mask.voxels[static_cast<std::size_t>(mask.geometry.offset(voxel))] != 0; },
-      Index3(0), layout_.volume_size() - Index3(1), what);
+      Index3(0), layout_.domain_size() - Index3(1), what);
 }
 
 void Constraints::set(const Geometry& geometry, const Sphere& sphere, Constraint what) {
   const glm::dvec3 centre = geometry.to_voxel(sphere.centre_mm);
   const glm::dvec3 reach = sphere.radius_mm / geometry.spacing_mm;
-  const glm::dvec3 end(layout_.volume_size() - Index3(1));
+  const glm::dvec3 end(layout_.domain_size() - Index3(1));
   const glm::dvec3 low = glm::ceil(centre - reach);
   const glm::dvec3 high = glm::floor(centre + reach);
   if (glm::any(glm::lessThan(high, glm::dvec3(0.0))) || glm::any(glm::greaterThan(low, end))) return;

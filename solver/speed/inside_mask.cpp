@@ -85,7 +85,7 @@ InsideMask::InsideMask(const Field& phi)
 
 Block InsideMask::values_in(const VoxelBox& box) const {
   Block block{box, std::vector<float>(static_cast<std::size_t>(box.voxels()))};
-  const Index3 last = layout_.volume_size() - Index3(1);
+  const Index3 last = layout_.domain_size() - Index3(1);
   const std::int64_t end_x = box.first.x + box.size.x;
   float* value = block.values.data();
   for (std::int64_t z = box.first.z; z < box.first.z + box.size.z; ++z) {

@@ -84,7 +84,7 @@ bool LocalRegionSpeed::is_as_before(const VoxelBox& box) const {
   if (changed_.empty()) return false;
   const PageLayout& layout = inside_->layout();
   const VoxelBox around = grown(box, reach_);
-  const Index3 last_voxel = layout.volume_size() - Index3(1);
+  const Index3 last_voxel = layout.domain_size() - Index3(1);
   const Index3 first = glm::clamp(around.first, Index3(0), last_voxel) / layout.page_shape();
   const Index3 last =
       glm::clamp(around.first + around.size - Index3(1), Index3(0), last_voxel) / layout.page_shape();

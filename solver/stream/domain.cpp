@@ -10,12 +10,13 @@ namespace tidemark::solver {
 // Of G, the tables and the geometry; the intermediate buffers are pooled and come on top.
 std::int64_t StreamExecutor::state_bytes(std::int64_t capacity) const {
   const auto beside = static_cast<std::int64_t>(sizeof(PageInfo) + sizeof(PhysicalPage));
-  return PhysicalMemory::bytes_for(layout_, capacity) + GeometryEngine::bytes_for(capacity) + table_.bytes() +
-         capacity * beside;
+  return PhysicalMemory::bytes_for(layout_, capacity) + GeometryEngine::bytes_for(capacity) +
+         pages_.table_bytes() + capacity * beside;
 }
 
 Status StreamExecutor::make_room(std::int64_t more_pages) {
-  const std::int64_t needed = table_.capacity() + std::max<std::int64_t>(0, more_pages - table_.free_count());
+  const std::int64_t needed =
+      pages_.table().capacity() + std::max<std::int64_t>(0, more_pages - pages_.table().free_count());
   if (needed <= memory_.capacity()) return {};
   const std::int64_t present = state_bytes(memory_.capacity());
   auto capacity =
@@ -29,12 +30,13 @@ Status StreamExecutor::make_room(std::int64_t more_pages) {
 // Makes a page resident with the constant that stood for it. Its voxels are written by fill_new_pages().
 Result<PhysicalPage> StreamExecutor::make_resident(std::int64_t virtual_page) {
   TIDEMARK_TRY(make_room(1));
-  const bool inside = table_.physical(virtual_page) == kInsidePage;
-  const PhysicalPage page = table_.allocate(virtual_page);
-  infos_.resize(static_cast<std::size_t>(table_.capacity()));
+  const bool inside = pages_.physical(virtual_page) == kInsidePage;
+  const Result<PhysicalPage> made = pages_.make_resident(virtual_page);
+  TIDEMARK_TRY(made);
+  const PhysicalPage page = *made;
   info(page) = PageInfo();
   new_[inside ? 1 : 0].push_back(page);
-  peak_resident_ = std::max(peak_resident_, table_.resident());
+  peak_resident_ = std::max(peak_resident_, pages_.table().resident());
   active_list_is_stale_ = true;
   return page;
 }
@@ -42,10 +44,10 @@ Result<PhysicalPage> StreamExecutor::make_resident(std::int64_t virtual_page) {
 // A bit a face: the page across it is wanted, and not resident.
 std::uint8_t StreamExecutor::requests(PhysicalPage page, PageMessage message) const {
   if (!message.differs_across_any()) return 0;
-  const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
+  const Index3 coordinates = pages_.layout().page_coordinates(pages_.virtual_page(page));
   unsigned faces = 0;
   for (int face = 0; face < kFaces; ++face) {
-    if (message.differs_across(face) && is_static_page(table_.physical(coordinates + kFaceSteps[face])))
+    if (message.differs_across(face) && is_static_page(pages_.physical(coordinates + kFaceSteps[face])))
       faces |= 1U << face;
   }
   return static_cast<std::uint8_t>(faces);
@@ -53,8 +55,8 @@ std::uint8_t StreamExecutor::requests(PhysicalPage page, PageMessage message) co
 
 Status StreamExecutor::grant_requests(PhysicalPage page, std::uint8_t requests) {
   if (requests == 0) return {};
-  const PageLayout& layout = table_.layout();
-  const Index3 coordinates = layout.page_coordinates(table_.virtual_page(page));
+  const PageLayout& layout = pages_.layout();
+  const Index3 coordinates = layout.page_coordinates(pages_.virtual_page(page));
   for (int face = 0; face < kFaces; ++face) {
     if ((requests >> face & 1U) == 0) continue;
     TIDEMARK_TRY(make_resident(layout.page_number(coordinates + kFaceSteps[face])));
@@ -77,7 +79,7 @@ Status StreamExecutor::fill_new_pages() {
   for (const bool inside : {false, true}) {
     std::vector<PhysicalPage>& pages = new_[inside ? 1 : 0];
     if (pages.empty()) continue;
-    TIDEMARK_TRY(special_geometry_.describe(*device_, table_, pages));
+    TIDEMARK_TRY(special_geometry_.describe(*device_, pages_, pages));
     passes_.fill(special_geometry_, memory_, static_cast<float>(inside ? band() : -band()));
     pages.clear();
   }
@@ -85,7 +87,7 @@ Status StreamExecutor::fill_new_pages() {
 }
 
 void StreamExecutor::release_page(PhysicalPage page, bool inside) {
-  table_.release(table_.virtual_page(page), inside);
+  pages_.release(pages_.virtual_page(page), inside);
   active_list_is_stale_ = true;
 }
 
@@ -110,7 +112,7 @@ Status StreamExecutor::update_domain(const std::vector<PageMessage>& messages) {
 
 std::vector<PhysicalPage> StreamExecutor::resident_pages() const {
   std::vector<PhysicalPage> pages;
-  for_each_resident([&](PhysicalPage page) { pages.push_back(page); });
+  pages_.for_each_resident([&](PhysicalPage page) { pages.push_back(page); });
   return pages;
 }
 
@@ -120,7 +122,7 @@ Status StreamExecutor::activate_pages(std::vector<PhysicalPage> asked) {
   needs_activation_ = true;
   // Pages that are made resident on the way may ask for more.
   while (!asked.empty()) {
-    TIDEMARK_TRY(special_geometry_.describe(*device_, table_, asked));
+    TIDEMARK_TRY(special_geometry_.describe(*device_, pages_, asked));
     TIDEMARK_TRY(passes_.reserve(*device_, special_geometry_.size()));
     auto messages =
         passes_.message(special_geometry_, memory_, current_, static_cast<float>(band()), kQuietChange);
@@ -152,9 +154,9 @@ Status StreamExecutor::validate_sleeping_pages() const {
     return false;
   };
   Status result;
-  for_each_resident([&](PhysicalPage page) {
+  pages_.for_each_resident([&](PhysicalPage page) {
     if (!result || !info(page).asleep ||
-        !differs(page, table_.layout().valid_shape(table_.virtual_page(page))))
+        !differs(page, pages_.layout().valid_shape(pages_.virtual_page(page))))
       return;
     result = fail(ErrorKind::internal, "page {} is quiet, but its two buffers differ", page);
   });
@@ -171,9 +173,10 @@ Status StreamExecutor::validate_sleeping_pages() const {
 
 Status StreamExecutor::validate() const {
   TIDEMARK_TRY(device_->make_current());
-  TIDEMARK_TRY(table_.validate());
-  if (table_.capacity() > memory_.capacity()) {
-    return fail(ErrorKind::internal, "the tables hold {} pages, G {}", table_.capacity(), memory_.capacity());
+  TIDEMARK_TRY(pages_.table().validate());
+  if (pages_.table().capacity() > memory_.capacity()) {
+    return fail(ErrorKind::internal, "the tables hold {} pages, G {}", pages_.table().capacity(),
+                memory_.capacity());
   }
   TIDEMARK_TRY(validate_sleeping_pages());
   auto phi = snapshot();

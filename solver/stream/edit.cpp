@@ -71,18 +71,22 @@ Status StreamExecutor::replace(const Field& phi) {
   memory->field().upload(phi.pages);
   memory_ = std::move(*memory);
 
-  table_ = PageTable(layout_.layout());
+  pages_ = PagedMemory<3>(layout_.layout(), kUnlimited);
+  infos_ = pages_.attach<PageInfo, 1>();
   viewed_changes_ = evaluated_changes_ = -1;
-  for (std::int64_t page = 0; page < table_.layout().page_count(); ++page) {
-    if (phi.pages.kind(page) == Field::Kind::inside) table_.set_static(page, true);
+  for (std::int64_t page = 0; page < pages_.layout().page_count(); ++page) {
+    if (phi.pages.kind(page) == Field::Kind::inside) pages_.set_static(page, true);
   }
-  for (const std::int64_t page : phi.pages.stored_pages()) table_.allocate(page);
-  infos_.assign(static_cast<std::size_t>(table_.capacity()), PageInfo());
+  for (const std::int64_t page : phi.pages.stored_pages()) {
+    const Result<PhysicalPage> made = pages_.make_resident(page);
+    TIDEMARK_TRY(made);
+    info(*made) = PageInfo();
+  }
   for (auto& pages_to_fill : new_) pages_to_fill.clear();
   current_ = 0;
   restart_watch(layout_.layout().voxels_per_page());
   active_list_is_stale_ = true;
-  peak_resident_ = table_.resident();
+  peak_resident_ = pages_.table().resident();
   peak_bytes_ = with_textures(state_bytes(memory_.capacity()));
   TIDEMARK_TRY(activate_pages(resident_pages()));
   return rebuild_active_list();
@@ -93,7 +97,7 @@ Result<Field> StreamExecutor::snapshot() const {
   auto physical = memory_.field().download(current_);
   if (!physical) return pass_on(physical);
   Field phi = known_;
-  update(phi, table_.entries(), *physical);
+  update(phi, pages_.table().entries(), *physical);
   return known_ = std::move(phi);
 }
 
@@ -111,14 +115,14 @@ Status StreamExecutor::wake_all_pages() {
   evaluated_changes_ = -1;
   restart_watch(layout_.layout().voxels_per_page());
   begin_window();
-  for_each_resident([&](PhysicalPage page) { wake(page); });
+  pages_.for_each_resident([&](PhysicalPage page) { wake(page); });
   peak_bytes_ = std::max(peak_bytes_, with_textures(state_bytes(memory_.capacity())));
   return rebuild_active_list();
 }
 
 // Sorts the pages that the sphere may touch by what it does to them.
 StreamExecutor::PaintPlan StreamExecutor::plan_paint(const Sphere& sphere, Brush brush) const {
-  const PageLayout& layout = table_.layout();
+  const PageLayout& layout = pages_.layout();
   const PaintJob job{source_->geometry,
                      layout,
                      sphere,
@@ -134,7 +138,7 @@ StreamExecutor::PaintPlan StreamExecutor::plan_paint(const Sphere& sphere, Brush
     for (std::int64_t y = first.y; y <= last.y; ++y) {
       for (std::int64_t x = first.x; x <= last.x; ++x) {
         const std::int64_t page = layout.page_number({x, y, z});
-        const PhysicalPage physical = table_.physical(page);
+        const PhysicalPage physical = pages_.physical(page);
         const std::vector<float> values = job.values({x, y, z});
         if (all_equal(values, job.neutral())) continue;
         if (is_static_page(physical)) {
@@ -161,14 +165,14 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
   TIDEMARK_TRY(make_room(plan.to_allocate));
   std::vector<PhysicalPage> pages;
   for (const std::int64_t page : plan.to_draw) {
-    if (is_static_page(table_.physical(page))) {
+    if (is_static_page(pages_.physical(page))) {
       TIDEMARK_TRY(make_resident(page));
     }
-    pages.push_back(table_.physical(page));
+    pages.push_back(pages_.physical(page));
   }
   TIDEMARK_TRY(fill_new_pages());
   if (!pages.empty()) {
-    TIDEMARK_TRY(special_geometry_.describe(*device_, table_, pages));
+    TIDEMARK_TRY(special_geometry_.describe(*device_, pages_, pages));
     const auto blending = brush == Brush::add ? gpu::Blending::largest : gpu::Blending::smallest;
     TIDEMARK_TRY(passes_.paint(*device_, special_geometry_, memory_, plan.values, blending));
   }
@@ -176,10 +180,10 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
     wake_around(page);
     info(page).constant_steps = 0;
   }
-  for (const std::int64_t page : plan.to_flip) table_.set_static(page, brush == Brush::add);
+  for (const std::int64_t page : plan.to_flip) pages_.set_static(page, brush == Brush::add);
   for (const std::int64_t page : plan.to_flip) {
-    all_within(Index3(1), table_.layout().page_coordinates(page), [&](Index3 coordinates) {
-      const PhysicalPage other = table_.physical(coordinates);
+    all_within(Index3(1), pages_.layout().page_coordinates(page), [&](Index3 coordinates) {
+      const PhysicalPage other = pages_.physical(coordinates);
       if (other >= kFirstPage) pages.push_back(other);
       return true;
     });

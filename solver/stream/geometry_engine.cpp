@@ -62,14 +62,14 @@ std::int32_t GeometryEngine::address(PhysicalPage page) const {
   return two_shorts(rect.x, rect.y);
 }
 
-void GeometryEngine::append(const PageTable& table, PhysicalPage page) {
-  const PageLayout& layout = table.layout();
-  const std::int64_t number = table.virtual_page(page);
+void GeometryEngine::append(const PagedMemory<3>& memory, PhysicalPage page) {
+  const PageLayout& layout = memory.layout();
+  const std::int64_t number = memory.virtual_page(page);
   const Index3 coordinates = layout.page_coordinates(number);
   // Beyond the volume's border lies the page on this side of it; the vertex stage clamps the texel.
   const auto there = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
     const Index3 other = glm::clamp(coordinates + Index3(x, y, z), Index3(0), layout.pages() - Index3(1));
-    return address(table.physical(layout.page_number(other)));
+    return address(memory.physical(other));
   };
   for (std::int64_t y = -1; y <= 1; ++y) {
     for (std::int64_t x = -1; x <= 1; ++x) staging_.push_back(there(x, y, 0));
@@ -85,12 +85,12 @@ void GeometryEngine::append(const PageTable& table, PhysicalPage page) {
   voxels_ += valid.x * valid.y * valid.z;
 }
 
-Status GeometryEngine::describe(gpu::Device& device, const PageTable& table,
+Status GeometryEngine::describe(gpu::Device& device, const PagedMemory<3>& memory,
                                 std::span<const PhysicalPage> pages) {
   staging_.clear();
   staging_.reserve(pages.size() * kRecordLength);
   voxels_ = 0;
-  for (const PhysicalPage page : pages) append(table, page);
+  for (const PhysicalPage page : pages) append(memory, page);
   size_ = static_cast<std::int64_t>(pages.size());
   if (bytes_for(size_) > buffer_.bytes()) {
     constexpr std::int64_t kFewPages = 64;

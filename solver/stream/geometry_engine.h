@@ -10,6 +10,7 @@
 #include "gpu/program.h"
 #include "gpu/texture.h"
 #include "solver/gl/packed_layout.h"
+#include "solver/paging/paged_memory.h"
 
 namespace tidemark::solver {
 
@@ -29,7 +30,7 @@ class GeometryEngine {
   static GeometryEngine create(gpu::Device& device, const PackedLayout& layout);
 
   // Replaces the list. Fails (ErrorKind::capability) when memory is short.
-  Status describe(gpu::Device& device, const PageTable& table, std::span<const PhysicalPage> pages);
+  Status describe(gpu::Device& device, const PagedMemory<3>& memory, std::span<const PhysicalPage> pages);
 
   // Draws `count` pages of the list from `first` on into a framebuffer of that size, with a program made for
   // the substream and in use; textures are bound from unit 1 on.
@@ -47,7 +48,7 @@ class GeometryEngine {
   [[nodiscard]] gpu::Defines defines(Substream substream) const;
 
  private:
-  void append(const PageTable& table, PhysicalPage page);
+  void append(const PagedMemory<3>& memory, PhysicalPage page);
   [[nodiscard]] std::int32_t address(PhysicalPage page) const;
 
   PackedLayout layout_;

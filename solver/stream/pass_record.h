@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "solver/paging/page_table.h"
+#include "solver/paging/paged_memory.h"
 #include "solver/stream/page_message.h"
 
 namespace tidemark::solver {

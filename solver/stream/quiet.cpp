@@ -21,9 +21,9 @@ void StreamExecutor::wake(PhysicalPage page) {
 void StreamExecutor::wake_around(PhysicalPage page) {
   info(page).woke_neighbours = true;
   if (!std::isfinite(band())) return;  // nothing sleeps then
-  all_within(band_reach(), table_.layout().page_coordinates(table_.virtual_page(page)),
+  all_within(band_reach(), pages_.layout().page_coordinates(pages_.virtual_page(page)),
              [&](Index3 coordinates) {
-               const PhysicalPage other = table_.physical(coordinates);
+               const PhysicalPage other = pages_.physical(coordinates);
                if (other >= kFirstPage) wake(other);
                return true;
              });
@@ -59,7 +59,7 @@ Result<bool> StreamExecutor::finish_window() {
 
 Status StreamExecutor::judge_quiet_pages(const std::vector<PageMotion>& motion) {
   const auto still = [&](Index3 coordinates) {
-    const PhysicalPage page = table_.physical(coordinates);
+    const PhysicalPage page = pages_.physical(coordinates);
     return page < kFirstPage || info(page).asleep ||
            motion[static_cast<std::size_t>(page)].change <= kQuietChange;
   };
@@ -68,31 +68,31 @@ Status StreamExecutor::judge_quiet_pages(const std::vector<PageMotion>& motion) 
   // A page that waits for a page must not sleep over it.
   if (options_.skip_quiet_pages && !needs_activation_ && std::isfinite(band())) {
     for (const PhysicalPage page : active_) {
-      if (table_.virtual_page(page) < 0) continue;  // freed in this step
-      if (all_within(reach, table_.layout().page_coordinates(table_.virtual_page(page)), still))
+      if (pages_.virtual_page(page) < 0) continue;  // freed in this step
+      if (all_within(reach, pages_.layout().page_coordinates(pages_.virtual_page(page)), still))
         quiet.push_back(page);
     }
   }
   if (quiet.empty()) return {};
   for (const PhysicalPage page : quiet) info(page).asleep = true;
   active_list_is_stale_ = true;
-  TIDEMARK_TRY(special_geometry_.describe(*device_, table_, quiet));
+  TIDEMARK_TRY(special_geometry_.describe(*device_, pages_, quiet));
   passes_.copy(special_geometry_, memory_, current_);
   return {};
 }
 
 Result<std::vector<std::int64_t>> StreamExecutor::quiet_pages() const {
   std::vector<std::int64_t> pages;
-  for_each_resident([&](PhysicalPage page) {
-    if (info(page).asleep) pages.push_back(table_.virtual_page(page));
+  pages_.for_each_resident([&](PhysicalPage page) {
+    if (info(page).asleep) pages.push_back(pages_.virtual_page(page));
   });
   return pages;
 }
 
 Result<std::vector<std::int64_t>> StreamExecutor::moving_pages() const {
   std::vector<std::int64_t> pages;
-  for_each_resident([&](PhysicalPage page) {
-    if (!info(page).asleep && watch_.is_moving(info(page).rest)) pages.push_back(table_.virtual_page(page));
+  pages_.for_each_resident([&](PhysicalPage page) {
+    if (!info(page).asleep && watch_.is_moving(info(page).rest)) pages.push_back(pages_.virtual_page(page));
   });
   return pages;
 }
@@ -100,7 +100,7 @@ Result<std::vector<std::int64_t>> StreamExecutor::moving_pages() const {
 Status StreamExecutor::rebuild_active_list() {
   active_.clear();
   quiet_pages_ = 0;
-  for_each_resident([&](PhysicalPage page) {
+  pages_.for_each_resident([&](PhysicalPage page) {
     if (info(page).asleep) {
       ++quiet_pages_;
     } else {
@@ -108,7 +108,7 @@ Status StreamExecutor::rebuild_active_list() {
     }
   });
   TIDEMARK_TRY(passes_.reserve(*device_, static_cast<std::int64_t>(active_.size())));
-  TIDEMARK_TRY(active_geometry_.describe(*device_, table_, active_));
+  TIDEMARK_TRY(active_geometry_.describe(*device_, pages_, active_));
   active_list_is_stale_ = false;
   return {};
 }

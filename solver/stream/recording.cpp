@@ -11,9 +11,9 @@ namespace tidemark::solver {
 // The page, and those across its faces that the step computes: the message compares with them.
 std::vector<PhysicalPage> StreamExecutor::recorded_pages(PhysicalPage page) const {
   std::vector<PhysicalPage> pages{page};
-  const Index3 coordinates = table_.layout().page_coordinates(table_.virtual_page(page));
+  const Index3 coordinates = pages_.layout().page_coordinates(pages_.virtual_page(page));
   for (const Index3& step : kFaceSteps) {
-    const PhysicalPage other = table_.physical(coordinates + step);
+    const PhysicalPage other = pages_.physical(coordinates + step);
     if (other >= kFirstPage && !info(other).asleep) pages.push_back(other);
   }
   return pages;
@@ -21,15 +21,15 @@ std::vector<PhysicalPage> StreamExecutor::recorded_pages(PhysicalPage page) cons
 
 // phi of the page and of all that touch it.
 Status StreamExecutor::record_phi(PassRecord& record) const {
-  const PageLayout& layout = table_.layout();
+  const PageLayout& layout = pages_.layout();
   const Index3 first = layout.first_voxel(record.page);
-  const Index3 last = layout.volume_size() - Index3(1);
+  const Index3 last = layout.domain_size() - Index3(1);
   std::map<PhysicalPage, std::vector<float>> pages;
   for (std::int64_t z = -1; z <= 1; ++z) {
     for (std::int64_t y = -1; y <= PassRecord::kSide; ++y) {
       for (std::int64_t x = -1; x <= PassRecord::kSide; ++x) {
         const VirtualAddress at = layout.translate(glm::clamp(first + Index3(x, y, z), Index3(0), last));
-        const PhysicalPage page = table_.physical(at.page);
+        const PhysicalPage page = pages_.physical(at.page);
         auto [values, missing] = pages.try_emplace(page);
         if (missing) {
           auto read = memory_.read_page(page, current_);
@@ -44,22 +44,22 @@ Status StreamExecutor::record_phi(PassRecord& record) const {
 }
 
 void StreamExecutor::record_address(PassRecord& record) const {
-  const PageLayout& layout = table_.layout();
+  const PageLayout& layout = pages_.layout();
   const gpu::TexelRect rect = layout_.rect(record.physical);
   record.address = {rect.x, rect.y};
   record.memory_size = memory_.size();
   const std::int64_t in_slice = layout.pages().x * layout.pages().y;
-  const auto begin = table_.entries().begin() + layout.page_coordinates(record.page).z * in_slice;
+  const auto begin = pages_.table().entries().begin() + layout.page_coordinates(record.page).z * in_slice;
   record.slice.assign(begin, begin + in_slice);
-  for (PhysicalPage page = 0; page < table_.capacity(); ++page)
-    record.inverse.push_back(table_.virtual_page(page));
+  for (PhysicalPage page = 0; page < pages_.table().capacity(); ++page)
+    record.inverse.push_back(pages_.virtual_page(page));
   record.band = band();
   record.time_step = time_step();
   record.one_gradient = parameters().scheme == Scheme::paper;
 }
 
 Status StreamExecutor::record_passes(PassRecord& record, const std::vector<PhysicalPage>& pages) {
-  TIDEMARK_TRY(special_geometry_.describe(*device_, table_, pages));
+  TIDEMARK_TRY(special_geometry_.describe(*device_, pages_, pages));
   TIDEMARK_TRY(passes_.reserve(*device_, std::max(active_geometry_.size(), special_geometry_.size())));
   passes_.step(special_geometry_, memory_, drive_textures_, model_.constants<float>(), current_,
                next_step_is_measured());
@@ -79,14 +79,14 @@ Status StreamExecutor::record_passes(PassRecord& record, const std::vector<Physi
 }
 
 Result<PassRecord> StreamExecutor::record_step(std::int64_t page) {
-  if (page < 0 || page >= table_.layout().page_count())
+  if (page < 0 || page >= pages_.layout().page_count())
     return fail(ErrorKind::usage, "there is no page {}: the volume has {}", page,
-                table_.layout().page_count());
+                pages_.layout().page_count());
   TIDEMARK_TRY(make_current());
   PassRecord record;
-  record.layout = table_.layout();
+  record.layout = pages_.layout();
   record.page = page;
-  record.physical = table_.physical(page);
+  record.physical = pages_.physical(page);
   record_address(record);
   if (!record.is_resident()) return record;
   record.quiet = info(record.physical).asleep;

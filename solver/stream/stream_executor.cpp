@@ -51,11 +51,11 @@ Status StreamExecutor::start(std::int64_t largest_region) {
 
 // Has D evaluated wherever the next step reads it.
 Status StreamExecutor::evaluate_speed() {
-  if (!drive_textures_.is_evaluated() || evaluated_changes_ == table_.changes()) return {};
+  if (!drive_textures_.is_evaluated() || evaluated_changes_ == pages_.table().changes()) return {};
   std::vector<std::int64_t> pages;
-  for_each_resident([&](PhysicalPage page) { pages.push_back(table_.virtual_page(page)); });
+  pages_.for_each_resident([&](PhysicalPage page) { pages.push_back(pages_.virtual_page(page)); });
   TIDEMARK_TRY(drive_textures_.fill_around(*device_, layout_.layout(), pages, 1));
-  evaluated_changes_ = table_.changes();
+  evaluated_changes_ = pages_.table().changes();
   return {};
 }
 
@@ -114,7 +114,7 @@ Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
 
 MemoryReport StreamExecutor::memory() const {
   MemoryReport report;
-  report.resident_pages = table_.resident();
+  report.resident_pages = pages_.table().resident();
   report.peak_resident_pages = peak_resident_;
   report.quiet_pages = quiet_pages_;
   report.state_bytes = with_textures(state_bytes(memory_.capacity()));
@@ -125,7 +125,7 @@ MemoryReport StreamExecutor::memory() const {
 }
 
 bool StreamExecutor::packed_view(PackedView& view) {
-  const std::vector<PhysicalPage>& entries = table_.entries();
+  const std::vector<PhysicalPage>& entries = pages_.table().entries();
   const auto bytes = static_cast<std::int64_t>(entries.size() * sizeof(PhysicalPage));
   if (viewed_table_.bytes() != bytes) {
     auto buffer = gpu::Buffer::create(*device_, bytes, "page table");
@@ -133,9 +133,9 @@ bool StreamExecutor::packed_view(PackedView& view) {
     viewed_table_ = std::move(*buffer);
     viewed_changes_ = -1;
   }
-  if (viewed_changes_ != table_.changes()) {
+  if (viewed_changes_ != pages_.table().changes()) {
     viewed_table_.upload_values<PhysicalPage>(0, entries);
-    viewed_changes_ = table_.changes();
+    viewed_changes_ = pages_.table().changes();
   }
   view = {layout_, &memory_.field().phi(current_), &viewed_table_, static_cast<float>(band())};
   return true;

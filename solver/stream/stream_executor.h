@@ -7,7 +7,7 @@
 
 #include "gpu/device.h"
 #include "solver/gl/gl_executor.h"
-#include "solver/paging/page_table.h"
+#include "solver/paging/paged_memory.h"
 #include "solver/stream/geometry_engine.h"
 #include "solver/stream/pass_record.h"
 #include "solver/stream/physical_memory.h"
@@ -53,10 +53,7 @@ class StreamExecutor final : public GlExecutor {
     bool asleep = false;
     bool woke_neighbours = false;  // in this window
   };
-  PageInfo& info(PhysicalPage page) { return infos_[static_cast<std::size_t>(page)]; }
-  [[nodiscard]] const PageInfo& info(PhysicalPage page) const {
-    return infos_[static_cast<std::size_t>(page)];
-  }
+  [[nodiscard]] PageInfo& info(PhysicalPage page) const { return infos_[page]; }
 
   // Steps (stream_executor.cpp).
   Status evaluate_speed();
@@ -104,20 +101,13 @@ class StreamExecutor final : public GlExecutor {
   Status judge_quiet_pages(const std::vector<PageMotion>& motion);
   Status rebuild_active_list();
 
-  template <class Visit>
-  void for_each_resident(Visit visit) const {
-    for (PhysicalPage page = kFirstPage; page < table_.capacity(); ++page) {
-      if (table_.virtual_page(page) >= 0) visit(page);
-    }
-  }
-
   PhysicalMemory memory_;
   GeometryEngine active_geometry_;   // of the active list
   GeometryEngine special_geometry_;  // of pages that are filled, copied, painted or asked
   RegionPasses passes_;
 
-  PageTable table_;
-  std::vector<PageInfo> infos_;       // by physical page
+  PagedMemory<3> pages_;
+  PageField<PageInfo, 1, 1> infos_;
   std::vector<PhysicalPage> active_;  // the pages that are computed
   std::vector<PhysicalPage> new_[2];  // resident since this maintenance, not filled yet: outside, inside
   int current_ = 0;                   // the buffer that holds phi

@@ -21,14 +21,14 @@ solver::Field ball(const Geometry& geometry, double radius, glm::dvec3 middle, I
 
 // phi as the shaders find it, read back from physical memory through the page table.
 std::vector<float> read_back(const renderer::PhiPicture& picture) {
-  const solver::PageLayout& layout = picture.table().layout();
+  const solver::PageLayout& layout = picture.pages().layout();
   const std::vector<float> pages = *picture.field().download(0);
   std::vector<float> values;
-  for (std::int64_t z = 0; z < layout.volume_size().z; ++z) {
-    for (std::int64_t y = 0; y < layout.volume_size().y; ++y) {
-      for (std::int64_t x = 0; x < layout.volume_size().x; ++x) {
+  for (std::int64_t z = 0; z < layout.domain_size().z; ++z) {
+    for (std::int64_t y = 0; y < layout.domain_size().y; ++y) {
+      for (std::int64_t x = 0; x < layout.domain_size().x; ++x) {
         const solver::VirtualAddress at = layout.translate({x, y, z});
-        const solver::PhysicalPage physical = picture.table().physical(at.page);
+        const solver::PhysicalPage physical = picture.pages().physical(at.page);
         values.push_back(pages[static_cast<std::size_t>(physical * layout.voxels_per_page() + at.offset)]);
       }
     }

@@ -21,7 +21,7 @@ std::vector<float> seen_through(const solver::PackedView& view) {
   if (!view.phi->download({0, 0, width, view.phi->height()}, std::as_writable_bytes(std::span(texels)))) {
     qFatal("phi cannot be read");
   }
-  const Geometry geometry = grid(pages.volume_size());
+  const Geometry geometry = grid(pages.domain_size());
   std::vector<float> phi(static_cast<std::size_t>(geometry.voxel_count()));
   std::vector<float> voxels(static_cast<std::size_t>(pages.voxels_per_page()));
   const Index3 shape = pages.page_shape();

@@ -1,8 +1,10 @@
-// Virtual memory: address translation and tables for any page shape, and what is checked of a level set.
+// Virtual memory: address translation, tables and fields for any page shape in 2, 3 and 4 dimensions, and
+// what is checked of a level set.
 #include <random>
+#include <set>
 
 #include "level_sets.h"
-#include "solver/paging/page_table.h"
+#include "solver/paging/paged_memory.h"
 #include "solver/paging/validate.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -13,6 +15,135 @@ namespace {
 
 constexpr Index3 kShapes[] = {{8, 8, 8}, {16, 16, 1}, {4, 4, 4}};
 
+template <int kDimensions>
+std::int64_t volume(solver::Index<kDimensions> sizes) {
+  std::int64_t result = 1;
+  for (int axis = 0; axis < kDimensions; ++axis) result *= sizes[axis];
+  return result;
+}
+
+// The voxel of that number in voxel order.
+template <int kDimensions>
+solver::Index<kDimensions> voxel_at(solver::Index<kDimensions> size, std::int64_t number) {
+  solver::Index<kDimensions> voxel;
+  for (int axis = 0; axis < kDimensions; ++axis) {
+    voxel[axis] = number % size[axis];
+    number /= size[axis];
+  }
+  return voxel;
+}
+
+template <int kDimensions>
+void check_addresses(solver::Index<kDimensions> size, solver::Index<kDimensions> shape) {
+  const solver::BasicPageLayout<kDimensions> layout(size, shape);
+  QCOMPARE(layout.voxels_per_page(), volume<kDimensions>(shape));
+  std::int64_t valid_voxels = 0;
+  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+    QCOMPARE(layout.page_number(layout.page_coordinates(page)), page);
+    QVERIFY(layout.contains_page(layout.page_coordinates(page)));
+    valid_voxels += volume<kDimensions>(layout.valid_shape(page));
+  }
+  QCOMPARE(valid_voxels, volume<kDimensions>(size));
+  QVERIFY(!layout.contains_page(layout.pages()));
+  std::vector<bool> seen(static_cast<std::size_t>(layout.page_count() * layout.voxels_per_page()));
+  for (std::int64_t number = 0; number < valid_voxels; ++number) {
+    const solver::Index<kDimensions> voxel = voxel_at<kDimensions>(size, number);
+    const solver::VirtualAddress address = layout.translate(voxel);
+    const auto index = static_cast<std::size_t>(address.page * layout.voxels_per_page() + address.offset);
+    QVERIFY(!seen[index]);
+    seen[index] = true;
+    QCOMPARE(voxel_at<kDimensions>(shape, address.offset) + layout.first_voxel(address.page), voxel);
+  }
+}
+
+// Pages come, go and are written to at random: all fields hold what was written last, and elsewhere the
+// constants.
+template <int kDimensions>
+void check_memory(solver::Index<kDimensions> size, solver::Index<kDimensions> shape) {
+  const solver::BasicPageLayout<kDimensions> layout(size, shape);
+  solver::PagedMemory<kDimensions> memory(layout, solver::kUnlimited);
+  const auto phi = memory.template attach<float>(2);
+  const auto speed = memory.template attach<std::int16_t>();
+  const auto steps = memory.template attach<int, 1>();
+  for (const bool inside : {false, true}) {
+    const solver::PhysicalPage page = inside ? solver::kInsidePage : solver::kOutsidePage;
+    phi.fill(page, inside ? 2.5F : -2.5F);
+    speed.fill(page, inside ? 1 : -1);
+  }
+  const std::int64_t voxels = volume<kDimensions>(size);
+  std::vector<float> wanted_phi[2];
+  for (auto& buffer : wanted_phi) buffer.assign(static_cast<std::size_t>(voxels), -2.5F);
+  std::vector<std::int16_t> wanted_speed(static_cast<std::size_t>(voxels), -1);
+  std::set<std::int64_t> changed;
+  std::mt19937 random(3);
+  const auto fill_wanted = [&](std::int64_t page, bool inside) {
+    for (std::int64_t number = 0; number < voxels; ++number) {
+      if (layout.translate(voxel_at<kDimensions>(size, number)).page != page) continue;
+      for (auto& buffer : wanted_phi) buffer[static_cast<std::size_t>(number)] = inside ? 2.5F : -2.5F;
+      wanted_speed[static_cast<std::size_t>(number)] = inside ? 1 : -1;
+    }
+  };
+  const auto everything_is_there = [&] {
+    for (std::int64_t number = 0; number < voxels; ++number) {
+      const auto at = memory.translate(voxel_at<kDimensions>(size, number));
+      const auto i = static_cast<std::size_t>(number);
+      if (phi.values(at.page, 0)[at.offset] != wanted_phi[0][i] ||
+          phi.values(at.page, 1)[at.offset] != wanted_phi[1][i] ||
+          speed.values(at.page)[at.offset] != wanted_speed[i])
+        return false;
+    }
+    return true;
+  };
+  for (int change = 0; change < 1500; ++change) {
+    const std::int64_t number = static_cast<std::int64_t>(random()) % voxels;
+    const solver::Index<kDimensions> voxel = voxel_at<kDimensions>(size, number);
+    const std::int64_t page = layout.translate(voxel).page;
+    const solver::PhysicalPage before = memory.physical(page);
+    QCOMPARE(memory.physical(layout.page_coordinates(page)), before);
+    changed.insert(page);
+    if (solver::is_static_page(before) && random() % 4 == 0) {
+      memory.set_static(page, random() % 2 == 0);
+      fill_wanted(page, memory.physical(page) == solver::kInsidePage);
+    } else if (!solver::is_static_page(before) && random() % 4 == 0) {
+      memory.release(page, random() % 2 == 0);
+      fill_wanted(page, memory.physical(page) == solver::kInsidePage);
+    } else {
+      if (solver::is_static_page(before)) {
+        const solver::PhysicalPage made = memory.make_resident(page).value();
+        QCOMPARE(memory.virtual_page(made), page);
+        phi.fill(made, *phi.values(before));
+        speed.fill(made, *speed.values(before));
+        steps[made] = 0;
+      }
+      const auto at = memory.translate(voxel);
+      const auto i = static_cast<std::size_t>(number);
+      const int buffer = change % 2;
+      phi.values(at.page, buffer)[at.offset] = wanted_phi[buffer][i] = static_cast<float>(change);
+      speed.values(at.page)[at.offset] = wanted_speed[i] = static_cast<std::int16_t>(change);
+      ++steps[at.page];
+      memory.note_change(page);
+    }
+    if (change % 250 != 0) continue;
+    QVERIFY(everything_is_there());
+    QCOMPARE(failure(memory.table().validate()), QString());
+    std::set<std::int64_t> announced;
+    memory.take_changes([&](std::int64_t it) { announced.insert(it); });
+    QVERIFY(announced == changed);
+    changed.clear();
+  }
+  // To full, and to empty.
+  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+    if (solver::is_static_page(memory.physical(page))) QVERIFY(memory.make_resident(page));
+  }
+  QCOMPARE(memory.table().resident(), layout.page_count());
+  QCOMPARE(memory.table().free_count(), std::int64_t{0});
+  QCOMPARE(memory.peak_resident(), layout.page_count());
+  QCOMPARE(failure(memory.table().validate()), QString());
+  for (std::int64_t page = 0; page < layout.page_count(); ++page) memory.release(page, false);
+  QCOMPARE(memory.table().resident(), std::int64_t{0});
+  QCOMPARE(failure(memory.table().validate()), QString());
+}
+
 }  // namespace
 
 class PagingTest : public QObject {
@@ -22,62 +153,49 @@ class PagingTest : public QObject {
   void every_voxel_has_an_address_of_its_own() {
     for (const Index3 shape : kShapes) {
       for (const Index3 size : {Index3(1, 7, 61), Index3(17, 16, 5), Index3(8, 8, 8), Index3(175, 1, 3)}) {
-        const solver::PageLayout layout(size, shape);
-        std::vector<bool> seen(static_cast<std::size_t>(layout.page_count() * layout.voxels_per_page()));
-        std::int64_t valid_voxels = 0;
-        for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-          QCOMPARE(layout.page_number(layout.page_coordinates(page)), page);
-          const Index3 valid = layout.valid_shape(page);
-          valid_voxels += valid.x * valid.y * valid.z;
-        }
-        QCOMPARE(valid_voxels, size.x * size.y * size.z);
-        for (std::int64_t z = 0; z < size.z; ++z) {
-          for (std::int64_t y = 0; y < size.y; ++y) {
-            for (std::int64_t x = 0; x < size.x; ++x) {
-              const solver::VirtualAddress address = layout.translate({x, y, z});
-              const auto index =
-                  static_cast<std::size_t>(address.page * layout.voxels_per_page() + address.offset);
-              QVERIFY(!seen[index]);
-              seen[index] = true;
-              const Index3 first = layout.first_voxel(address.page);
-              QVERIFY(x - first.x < shape.x && y - first.y < shape.y && z - first.z < shape.z);
-            }
-          }
-        }
+        check_addresses<3>(size, shape);
       }
     }
+    for (const solver::Index<2> size : {solver::Index<2>(1, 61), solver::Index<2>(37, 16)}) {
+      check_addresses<2>(size, {16, 16});
+      check_addresses<2>(size, {5, 3});
+    }
+    check_addresses<4>({9, 8, 7, 5}, {4, 4, 4, 2});
+    check_addresses<4>({1, 17, 3, 2}, {8, 8, 1, 1});
   }
 
-  void tables_stay_consistent_while_pages_come_and_go() {  // T6
-    for (const Index3 shape : kShapes) {
-      const solver::PageLayout layout({40, 33, 20}, shape);
-      solver::PageTable table(layout);
-      std::mt19937 random(3);
-      std::vector<bool> resident(static_cast<std::size_t>(layout.page_count()));
-      for (int change = 0; change < 3000; ++change) {
-        const std::int64_t page = random() % layout.page_count();
-        const auto index = static_cast<std::size_t>(page);
-        if (resident[index]) {
-          table.release(page, random() % 2 == 0);
-        } else {
-          const solver::PhysicalPage physical = table.allocate(page);
-          QVERIFY(physical >= solver::kFirstPage);
-          QCOMPARE(table.virtual_page(physical), page);
-        }
-        resident[index] = !resident[index];
-        if (change % 100 == 0) QCOMPARE(failure(table.validate()), QString());
-      }
-      QCOMPARE(table.resident(), std::int64_t(std::count(resident.begin(), resident.end(), true)));
-      // To full, and to empty.
-      for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-        if (!resident[static_cast<std::size_t>(page)]) table.allocate(page);
-      }
-      QCOMPARE(table.free_count(), std::int64_t{0});
-      QCOMPARE(failure(table.validate()), QString());
-      for (std::int64_t page = 0; page < layout.page_count(); ++page) table.release(page, false);
-      QCOMPARE(table.resident(), std::int64_t{0});
-      QCOMPARE(failure(table.validate()), QString());
-    }
+  void memory_holds_what_was_written_in_2_3_and_4_dimensions() {  // T6
+    for (const Index3 shape : kShapes) check_memory<3>({40, 33, 20}, shape);
+    check_memory<2>({200, 133}, {16, 16});
+    check_memory<4>({20, 17, 9, 6}, {8, 8, 4, 2});
+  }
+
+  void memory_keeps_its_budget() {
+    constexpr std::int64_t kPages = 20;
+    const solver::BasicPageLayout<2> layout({160, 160}, {16, 16});
+    // What so many pages need, told by a memory without a budget.
+    solver::PagedMemory<2> free(layout, solver::kUnlimited);
+    const auto its_field = free.attach<float>(2);
+    QCOMPARE(its_field.page_bytes(), std::int64_t{2 * 256 * 4});
+    for (std::int64_t page = 0; page < kPages; ++page) QVERIFY(free.make_resident(page));
+    QCOMPARE(free.field_bytes(), (kPages + solver::kFirstPage) * its_field.page_bytes());
+    const std::int64_t budget = free.field_bytes() + free.table_bytes() + 64 * (kPages + solver::kFirstPage);
+
+    solver::PagedMemory<2> memory(layout, budget);
+    auto field = memory.attach<float>(2);
+    std::int64_t page = 0;
+    auto made = memory.make_resident(page);
+    while (made && page + 1 < layout.page_count()) made = memory.make_resident(++page);
+    QVERIFY(!made && made.error().kind == ErrorKind::capability);
+    QVERIFY(std::abs(page - kPages) <= 1);
+    QCOMPARE(memory.physical(page), solver::kOutsidePage);  // nothing has changed
+    QCOMPARE(failure(memory.table().validate()), QString());
+    // A page that was given back can be had again, and a field that was detached makes room.
+    memory.release(0, true);
+    QVERIFY(memory.make_resident(page));
+    memory.detach(field);
+    QVERIFY(!field.is_attached());
+    QVERIFY(memory.make_resident(0));
   }
 
   void a_field_is_the_same_in_every_layout() {

@@ -35,15 +35,18 @@ struct FullMemory {
   std::shared_ptr<gpu::Device> gpu = device();
   solver::PageLayout pages;
   solver::PackedLayout layout;
-  solver::PageTable table;
+  solver::PagedMemory<3> table;
   std::vector<solver::PhysicalPage> list;
   solver::PhysicalMemory memory;
   solver::GeometryEngine geometry;
 
   explicit FullMemory(Index3 size)
-      : pages(size, kPageShape), layout(pages, gpu->capabilities().largest_texture), table(pages) {
-    for (std::int64_t page = 0; page < pages.page_count(); ++page) list.push_back(table.allocate(page));
-    memory = good(solver::PhysicalMemory::create(*gpu, layout, table.capacity(), 2.5F));
+      : pages(size, kPageShape),
+        layout(pages, gpu->capabilities().largest_texture),
+        table(pages, solver::kUnlimited) {
+    for (std::int64_t page = 0; page < pages.page_count(); ++page)
+      list.push_back(table.make_resident(page).value());
+    memory = good(solver::PhysicalMemory::create(*gpu, layout, table.table().capacity(), 2.5F));
     geometry = solver::GeometryEngine::create(*gpu, layout);
     if (!geometry.describe(*gpu, table, list)) qFatal("describe failed");
     gpu::begin_exact_drawing();
@@ -73,7 +76,7 @@ bool drawn_once(const FullMemory& full, const std::vector<float>& counts) {
     const auto page = static_cast<solver::PhysicalPage>(i / kPageTexels);
     const auto x = static_cast<std::int64_t>(i % 16);
     const auto y = static_cast<std::int64_t>(i / 16 % 16);
-    bool is_voxel = page >= solver::kFirstPage && page < full.table.capacity();
+    bool is_voxel = page >= solver::kFirstPage && page < full.table.table().capacity();
     if (is_voxel) {
       const Index3 valid = full.pages.valid_shape(full.table.virtual_page(page));
       is_voxel = x < valid.x && y < valid.y;
@@ -176,10 +179,10 @@ class StreamTest : public QObject {
     const auto gpu = device();
     const solver::PageLayout pages(geometry.size, kPageShape);
     const solver::PackedLayout layout(pages, gpu->capabilities().largest_texture);
-    solver::PageTable table(pages);
-    const solver::PhysicalPage page = table.allocate(pages.page_number({1, 1, 1}));
+    solver::PagedMemory<3> table(pages, solver::kUnlimited);
+    const solver::PhysicalPage page = table.make_resident(pages.page_number({1, 1, 1})).value();
     const float band = 2.5F;
-    auto memory = good(solver::PhysicalMemory::create(*gpu, layout, table.capacity(), band));
+    auto memory = good(solver::PhysicalMemory::create(*gpu, layout, table.table().capacity(), band));
     auto geometry_engine = solver::GeometryEngine::create(*gpu, layout);
     const solver::PhysicalPage list[] = {page};
     QVERIFY(geometry_engine.describe(*gpu, table, list));

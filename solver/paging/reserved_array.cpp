@@ -1,4 +1,4 @@
-#include "solver/host/reserved_array.h"
+#include "solver/paging/reserved_array.h"
 
 #include <sys/mman.h>
 
