@@ -35,6 +35,7 @@ std::vector<std::pair<std::string, std::string>> Capabilities::entries() const {
           {"software", software ? "yes" : "no"},
           {"reset_reported", reset_reported ? "yes" : "no"},
           {"largest_texture", fmt::to_string(largest_texture)},
+          {"largest_layers", fmt::to_string(largest_layers)},
           {"largest_volume_texture", fmt::to_string(largest_volume_texture)},
           {"largest_buffer_texture", fmt::to_string(largest_buffer_texture)},
           {"largest_storage_buffer", fmt::to_string(largest_storage_buffer)},
@@ -50,6 +51,7 @@ Capabilities query_capabilities() {
   c.minor = static_cast<int>(integer(GL_MINOR_VERSION));
   c.software = is_software(c.renderer);
   c.largest_texture = integer(GL_MAX_TEXTURE_SIZE);
+  c.largest_layers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
   c.largest_volume_texture = integer(GL_MAX_3D_TEXTURE_SIZE);
   c.largest_buffer_texture = integer(GL_MAX_TEXTURE_BUFFER_SIZE);
   if (c.at_least(4, 3)) {

@@ -17,6 +17,7 @@ struct Capabilities {
   bool software = false;                    // the processor plays the GPU (llvmpipe, softpipe, swrast)
   bool reset_reported = false;              // a lost context is reported
   std::int64_t largest_texture = 0;         // texels along an axis, 2D
+  std::int64_t largest_layers = 0;          // of a texture that has some
   std::int64_t largest_volume_texture = 0;  // voxels along an axis, 3D
   std::int64_t largest_buffer_texture = 0;  // texels
   std::int64_t largest_storage_buffer = 0;  // bytes; 0 before OpenGL 4.3

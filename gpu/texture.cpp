@@ -67,6 +67,22 @@ unsigned new_texture(GLenum target) {
   return id;
 }
 
+Status check_size(const Device& device, std::int64_t width, std::int64_t height) {
+  const std::int64_t limit = device.capabilities().largest_texture;
+  if (width <= limit && height <= limit) return {};
+  return fail(ErrorKind::capability, "a texture of {} x {} is needed; this driver allows {} along an axis",
+              width, height, limit);
+}
+
+// From the first texture of a framebuffer, which is bound.
+Status read_texels(Device& device, const GlFormat& gl, const TexelRect& rect, std::span<std::byte> data) {
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glReadPixels(static_cast<GLint>(rect.x), static_cast<GLint>(rect.y), static_cast<GLsizei>(rect.width),
+               static_cast<GLsizei>(rect.height), gl.format, gl.type, data.data());
+  return device.check("reading a texture");
+}
+
 }  // namespace
 
 std::int64_t bytes_per_texel(TexelFormat format) {
@@ -75,11 +91,7 @@ std::int64_t bytes_per_texel(TexelFormat format) {
 
 Result<Texture2D> Texture2D::create(Device& device, TexelFormat format, std::int64_t width,
                                     std::int64_t height, std::string_view label, bool mipmaps) {
-  const std::int64_t limit = device.capabilities().largest_texture;
-  if (width > limit || height > limit) {
-    return fail(ErrorKind::capability, "a texture of {} x {} is needed; this driver allows {} along an axis",
-                width, height, limit);
-  }
+  TIDEMARK_TRY(check_size(device, width, height));
   TIDEMARK_TRY(device.check("allocating a texture"));
   Texture2D texture;
   texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_2D));
@@ -113,13 +125,8 @@ Status Texture2D::download(const TexelRect& rect, std::span<std::byte> data, int
   Device& device = handle_.device();
   auto source = Framebuffer::create(device, {this}, "download", level);
   if (!source) return pass_on(source);
-  const GlFormat gl = gl_format(format_);
   source->bind();
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glReadPixels(static_cast<GLint>(rect.x), static_cast<GLint>(rect.y), static_cast<GLsizei>(rect.width),
-               static_cast<GLsizei>(rect.height), gl.format, gl.type, data.data());
-  return device.check("reading a texture");
+  return read_texels(device, gl_format(format_), rect, data);
 }
 
 void Texture2D::limit_levels(int last) {
@@ -144,8 +151,55 @@ void Texture2D::bind(unsigned unit) const {
   glBindTexture(GL_TEXTURE_2D, id());
 }
 
-void Texture2D::bind_image(unsigned unit, bool writable) const {
-  glBindImageTexture(unit, id(), 0, GL_FALSE, 0, writable ? GL_READ_WRITE : GL_READ_ONLY,
+Result<TextureLayers> TextureLayers::create(Device& device, TexelFormat format, std::int64_t width,
+                                            std::int64_t height, std::int64_t layers,
+                                            std::string_view label) {
+  TIDEMARK_TRY(check_size(device, width, height));
+  if (layers > device.capabilities().largest_layers) {
+    return fail(ErrorKind::capability, "a texture of {} layers is needed; this driver allows {}", layers,
+                device.capabilities().largest_layers);
+  }
+  TIDEMARK_TRY(device.check("allocating a texture"));
+  TextureLayers texture;
+  texture.handle_ = TextureHandle(device, new_texture(GL_TEXTURE_2D_ARRAY));
+  texture.format_ = format;
+  texture.width_ = width;
+  texture.height_ = height;
+  texture.layers_ = layers;
+  const GlFormat gl = gl_format(format);
+  fetch_only(GL_TEXTURE_2D_ARRAY, false);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
+  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, static_cast<GLint>(gl.internal), static_cast<GLsizei>(width),
+               static_cast<GLsizei>(height), static_cast<GLsizei>(layers), 0, gl.format, gl.type, nullptr);
+  set_label(device, GL_TEXTURE, texture.id(), label);
+  TIDEMARK_TRY(device.check("allocating a texture"));
+  return texture;
+}
+
+void TextureLayers::upload(std::int64_t layer, const TexelRect& rect, std::span<const std::byte> data) {
+  const GlFormat gl = gl_format(format_);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  bind_for_editing(GL_TEXTURE_2D_ARRAY, id());
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, static_cast<GLint>(rect.x), static_cast<GLint>(rect.y),
+                  static_cast<GLint>(layer), static_cast<GLsizei>(rect.width),
+                  static_cast<GLsizei>(rect.height), 1, gl.format, gl.type, data.data());
+}
+
+Status TextureLayers::download(std::int64_t layer, const TexelRect& rect, std::span<std::byte> data) const {
+  Device& device = handle_.device();
+  auto source = Framebuffer::create_on_layer(device, layer, {this}, "download");
+  if (!source) return pass_on(source);
+  source->bind();
+  return read_texels(device, gl_format(format_), rect, data);
+}
+
+void TextureLayers::bind(unsigned unit) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, id());
+}
+
+void TextureLayers::bind_image(unsigned unit, bool writable) const {
+  glBindImageTexture(unit, id(), 0, GL_TRUE, 0, writable ? GL_READ_WRITE : GL_READ_ONLY,
                      gl_format(format_).internal);
 }
 

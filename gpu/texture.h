@@ -63,13 +63,41 @@ class Texture2D {
   void set_filter(Filter filter);
 
   void bind(unsigned unit) const;
-  void bind_image(unsigned unit, bool writable) const;  // OpenGL 4.2
 
  private:
   TextureHandle handle_;
   TexelFormat format_ = TexelFormat::r32f;
   std::int64_t width_ = 0;
   std::int64_t height_ = 0;
+};
+
+// Layers of one size, each as a 2D texture, that shaders read as one sampler2DArray without filtering.
+class TextureLayers {
+ public:
+  TextureLayers() = default;
+  // Fails (ErrorKind::capability) when memory is short or a size is beyond the driver's limit.
+  static Result<TextureLayers> create(Device& device, TexelFormat format, std::int64_t width,
+                                      std::int64_t height, std::int64_t layers, std::string_view label);
+
+  [[nodiscard]] unsigned id() const { return handle_.id(); }
+  [[nodiscard]] std::int64_t width() const { return width_; }
+  [[nodiscard]] std::int64_t height() const { return height_; }
+  [[nodiscard]] std::int64_t layers() const { return layers_; }
+  [[nodiscard]] std::int64_t bytes() const { return width_ * height_ * layers_ * bytes_per_texel(format_); }
+
+  // As those of Texture2D, in a layer.
+  void upload(std::int64_t layer, const TexelRect& rect, std::span<const std::byte> data);
+  Status download(std::int64_t layer, const TexelRect& rect, std::span<std::byte> data) const;
+
+  void bind(unsigned unit) const;
+  void bind_image(unsigned unit, bool writable) const;  // image2DArray; OpenGL 4.2
+
+ private:
+  TextureHandle handle_;
+  TexelFormat format_ = TexelFormat::r32f;
+  std::int64_t width_ = 0;
+  std::int64_t height_ = 0;
+  std::int64_t layers_ = 0;
 };
 
 // A 3D texture, x fastest.

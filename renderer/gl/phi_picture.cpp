@@ -10,7 +10,9 @@ namespace {
 
 // Llvmpipe compiles anew for textures whose height is a power of two: G never has such a one, while it grows.
 std::int64_t without_power_of_two(const solver::PackedLayout& layout, std::int64_t capacity) {
-  while (std::has_single_bit(static_cast<std::uint64_t>(layout.texture_size(capacity).y))) {
+  const auto fits_one_layer = [&](std::int64_t pages) { return layout.texture_size(pages).z == 1; };
+  while (std::has_single_bit(static_cast<std::uint64_t>(layout.texture_size(capacity).y)) &&
+         fits_one_layer(capacity + layout.pages_per_row())) {
     capacity += layout.pages_per_row();
   }
   return std::min(capacity, layout.largest_capacity());
@@ -32,7 +34,7 @@ Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::in
 
 Result<PhiPicture> PhiPicture::create(gpu::Device& device, const solver::PageLayout& layout, double band) {
   PhiPicture picture;
-  const solver::PackedLayout packed(layout, device.capabilities().largest_texture);
+  const solver::PackedLayout packed(layout, device.capabilities());
   auto field = solver::PackedField::create(device, packed, without_power_of_two(packed, solver::kFirstPage),
                                            static_cast<float>(band), 1);
   if (!field) return pass_on(field);
@@ -128,10 +130,7 @@ Status PhiPicture::upload(gpu::Device& device, const solver::Field& phi, std::sp
   if (!places) return pass_on(places);
   places->buffer.upload_values<std::int32_t>(0, addresses);
 
-  const gpu::Texture2D& memory = field_.phi(0);
-  auto framebuffer = gpu::Framebuffer::create(device, {&memory}, "physical memory of pictures");
-  if (!framebuffer) return pass_on(framebuffer);
-  framebuffer->bind();
+  const gpu::TextureLayers& memory = field_.phi(0);
   vertices_.bind();
   scatter_.use();
   layout().set_uniforms(scatter_);
@@ -141,7 +140,14 @@ Status PhiPicture::upload(gpu::Device& device, const solver::Field& phi, std::sp
   scatter_.set("addresses", 1);
   scatter_.set("texture_size", glm::vec2(memory.width(), memory.height()));
   gpu::begin_exact_drawing();
-  gpu::draw(gpu::Primitive::triangles, 6 * count);
+  for (std::int64_t layer = 0; layer < memory.layers(); ++layer) {
+    auto framebuffer =
+        gpu::Framebuffer::create_on_layer(device, layer, {&memory}, "physical memory of pictures");
+    if (!framebuffer) return pass_on(framebuffer);
+    framebuffer->bind();
+    scatter_.set("target_layer", static_cast<int>(layer));
+    gpu::draw(gpu::Primitive::triangles, 6 * count);
+  }
   return {};
 }
 
@@ -196,7 +202,7 @@ std::vector<solver::PhysicalPage> PhiPicture::page_entries() const {
 
 void PhiPicture::set_uniforms(const gpu::Program& program, int unit) const {
   layout().set_uniforms(program);
-  const gpu::Texture2D& phi = viewed_ ? *viewed_->view.phi : field_.phi(0);
+  const gpu::TextureLayers& phi = viewed_ ? *viewed_->view.phi : field_.phi(0);
   phi.bind(static_cast<unsigned>(unit));
   program.set("phi_pages", unit);
   program.set("phi_texel", 1.0F / glm::vec2(phi.width(), phi.height()));

@@ -15,7 +15,7 @@ std::int64_t ring_length(std::int64_t capacity) {
 }  // namespace
 
 std::int64_t PageMemory::bytes_for(const PackedLayout& layout, std::int64_t capacity) {
-  const std::int64_t pages = layout.whole_rows(capacity);
+  const std::int64_t pages = layout.rounded_up(capacity);
   const std::int64_t phi = 2 * pages * layout.layout().voxels_per_page() * 4;
   const auto state = static_cast<std::int64_t>(sizeof(ComputePageState));
   return phi + pages * (4 + state + 4) + ring_length(pages) * 4 + layout.layout().page_count() * 4 +
@@ -104,7 +104,7 @@ void PageMemory::list_free_pages(const std::vector<std::int32_t>& pages, Compute
 
 Status PageMemory::grow(gpu::Device& device, std::int64_t capacity, ComputeControl& control) {
   const std::int64_t old = this->capacity();
-  const std::int64_t pages = field_.layout().whole_rows(capacity);
+  const std::int64_t pages = field_.layout().rounded_up(capacity);
   std::vector<std::int32_t> free = free_pages(control);
   for (auto page = static_cast<PhysicalPage>(old); page < pages; ++page) free.push_back(page);
   TIDEMARK_TRY(device.check("growing the lists of pages"));

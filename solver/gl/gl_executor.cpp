@@ -16,7 +16,7 @@ GlExecutor::GlExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<cons
     : ExecutorBase(std::move(source), parameters),
       device_(std::move(device)),
       options_(options),
-      layout_(PageLayout(source_->geometry.size, page_shape), device_->capabilities().largest_texture),
+      layout_(PageLayout(source_->geometry.size, page_shape), device_->capabilities()),
       known_(Field::empty(source_->geometry, band(), page_shape)) {}
 
 Status GlExecutor::make_textures() {
@@ -29,9 +29,9 @@ Status GlExecutor::make_textures() {
 Result<std::int64_t> GlExecutor::capacity_for(
     std::int64_t needed, bool copied, const std::function<std::int64_t(std::int64_t)>& state_bytes) const {
   const auto bytes = [&](std::int64_t pages) { return with_textures(state_bytes(pages)); };
-  const std::int64_t least = layout_.whole_rows(needed);
+  const std::int64_t least = layout_.rounded_up(needed);
   const std::int64_t all = layout_.layout().page_count() + kFirstPage;  // of the whole volume
-  const std::int64_t ample = layout_.whole_rows(std::min(needed + std::max(needed / 5, kFewestSpare), all));
+  const std::int64_t ample = layout_.rounded_up(std::min(needed + std::max(needed / 5, kFewestSpare), all));
   if (ample > least && ample <= layout_.largest_capacity() && bytes(ample) <= options_.memory_budget_bytes) {
     return ample;
   }

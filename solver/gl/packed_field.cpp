@@ -4,17 +4,18 @@
 
 namespace tidemark::solver {
 
-Result<std::vector<gpu::Texture2D>> PackedField::make_textures(gpu::Device& device,
-                                                               const PackedLayout& layout,
-                                                               std::int64_t capacity, std::size_t count) {
+Result<std::vector<gpu::TextureLayers>> PackedField::make_textures(gpu::Device& device,
+                                                                   const PackedLayout& layout,
+                                                                   std::int64_t capacity, std::size_t count) {
   if (capacity > layout.largest_capacity()) {
     return fail(ErrorKind::capability, "the surface needs {} pages; this driver's textures hold {}", capacity,
                 layout.largest_capacity());
   }
-  const glm::i64vec2 size = layout.texture_size(capacity);
-  std::vector<gpu::Texture2D> textures(count);
-  for (gpu::Texture2D& texture : textures) {
-    auto made = gpu::Texture2D::create(device, gpu::TexelFormat::r32f, size.x, size.y, "physical memory G");
+  const Index3 size = layout.texture_size(capacity);
+  std::vector<gpu::TextureLayers> textures(count);
+  for (gpu::TextureLayers& texture : textures) {
+    auto made = gpu::TextureLayers::create(device, gpu::TexelFormat::r32f, size.x, size.y, size.z,
+                                           "physical memory G");
     if (!made) return pass_on(made);
     texture = std::move(*made);
   }
@@ -27,7 +28,7 @@ Result<PackedField> PackedField::create(gpu::Device& device, const PackedLayout&
   if (!textures) return pass_on(textures);
   PackedField field;
   field.layout_ = layout;
-  field.capacity_ = layout.whole_rows(capacity);
+  field.capacity_ = layout.rounded_up(capacity);
   field.band_ = band;
   field.phi_ = std::move(*textures);
   field.write_static_pages();
@@ -40,7 +41,8 @@ void PackedField::write_static_pages() {
   std::vector<float> values(static_cast<std::size_t>(outside.width * outside.height));
   for (const PhysicalPage page : {kOutsidePage, kInsidePage}) {
     std::fill(values.begin(), values.end(), page == kInsidePage ? band_ : -band_);
-    for (gpu::Texture2D& texture : phi_) texture.upload(layout_.rect(page), std::as_bytes(std::span(values)));
+    for (gpu::TextureLayers& texture : phi_)
+      texture.upload(layout_.layer(page), layout_.rect(page), std::as_bytes(std::span(values)));
   }
 }
 
@@ -48,14 +50,16 @@ Status PackedField::grow(gpu::Device& device, std::int64_t capacity) {
   auto textures = make_textures(device, layout_, capacity, phi_.size());
   if (!textures) return pass_on(textures);
   for (std::size_t buffer = 0; buffer < phi_.size(); ++buffer) {
-    const gpu::Texture2D& old = phi_[buffer];
-    auto source = gpu::Framebuffer::create(device, {&old}, "growing G");
-    if (!source) return pass_on(source);
-    source->copy_to({0, 0, old.width(), old.height()}, (*textures)[buffer], 0, 0);
+    const gpu::TextureLayers& old = phi_[buffer];
+    for (std::int64_t layer = 0; layer < old.layers(); ++layer) {
+      auto source = gpu::Framebuffer::create_on_layer(device, layer, {&old}, "growing G");
+      if (!source) return pass_on(source);
+      source->copy_to({0, 0, old.width(), old.height()}, (*textures)[buffer], layer);
+    }
   }
   TIDEMARK_TRY(device.check("growing physical memory"));
   phi_ = std::move(*textures);
-  capacity_ = layout_.whole_rows(capacity);
+  capacity_ = layout_.rounded_up(capacity);
   return {};
 }
 
@@ -74,25 +78,31 @@ void PackedField::upload(const SharedPages& pages) {
       layout_.pack(pages.values(stored[static_cast<std::size_t>(index)]), rows.data() + column * tile.x,
                    row_length);
     }
-    for (gpu::Texture2D& texture : phi_) {
-      texture.upload({0, row * tile.y, row_length, tile.y}, std::as_bytes(std::span(rows)));
+    for (gpu::TextureLayers& texture : phi_) {
+      const auto first = static_cast<PhysicalPage>(row * per_row);
+      texture.upload(layout_.layer(first), {0, layout_.rect(first).y, row_length, tile.y},
+                     std::as_bytes(std::span(rows)));
     }
   }
   write_static_pages();
 }
 
 void PackedField::upload_page(PhysicalPage page, std::span<const float> tile, int buffer) {
-  phi_[static_cast<std::size_t>(buffer)].upload(layout_.rect(page), std::as_bytes(tile));
+  phi_[static_cast<std::size_t>(buffer)].upload(layout_.layer(page), layout_.rect(page), std::as_bytes(tile));
 }
 
 Result<std::vector<float>> PackedField::download(int buffer) const {
-  const gpu::Texture2D& texture = phi(buffer);
+  const gpu::TextureLayers& texture = phi(buffer);
   std::vector<float> texels(static_cast<std::size_t>(texture.width() * texture.height()));
-  TIDEMARK_TRY(
-      texture.download({0, 0, texture.width(), texture.height()}, std::as_writable_bytes(std::span(texels))));
   const std::int64_t voxels = layout_.layout().voxels_per_page();
-  std::vector<float> pages(texels.size());
+  std::vector<float> pages(static_cast<std::size_t>(capacity_ * voxels));
+  std::int64_t there = -1;  // the layer that `texels` has
   for (PhysicalPage page = 0; page < capacity_; ++page) {
+    if (const std::int64_t layer = layout_.layer(page); layer != there) {
+      TIDEMARK_TRY(texture.download(layer, {0, 0, texture.width(), texture.height()},
+                                    std::as_writable_bytes(std::span(texels))));
+      there = layer;
+    }
     const gpu::TexelRect rect = layout_.rect(page);
     layout_.unpack(texels.data() + rect.y * texture.width() + rect.x, texture.width(),
                    pages.data() + page * voxels);

@@ -1,4 +1,5 @@
-// Physical memory G (paper section 3.2): phi of the resident pages, packed in 2D textures.
+// Physical memory G (paper section 3.2): phi of the resident pages, packed in 2D textures, or in layers of
+// them where one texture cannot hold it.
 #pragma once
 
 #include <span>
@@ -28,7 +29,9 @@ class PackedField {
   [[nodiscard]] std::int64_t bytes() const {
     return static_cast<std::int64_t>(phi_.size()) * phi_[0].bytes();
   }
-  [[nodiscard]] const gpu::Texture2D& phi(int buffer) const { return phi_[static_cast<std::size_t>(buffer)]; }
+  [[nodiscard]] const gpu::TextureLayers& phi(int buffer) const {
+    return phi_[static_cast<std::size_t>(buffer)];
+  }
 
   // Writes pages kFirstPage, kFirstPage + 1, ... of all buffers: the stored ones in the order of their
   // virtual numbers.
@@ -39,14 +42,15 @@ class PackedField {
   Result<std::vector<float>> download(int buffer) const;
 
  private:
-  static Result<std::vector<gpu::Texture2D>> make_textures(gpu::Device& device, const PackedLayout& layout,
-                                                           std::int64_t capacity, std::size_t count);
+  static Result<std::vector<gpu::TextureLayers>> make_textures(gpu::Device& device,
+                                                               const PackedLayout& layout,
+                                                               std::int64_t capacity, std::size_t count);
   void write_static_pages();
 
   PackedLayout layout_;
   std::int64_t capacity_ = 0;
   float band_ = 0.0F;
-  std::vector<gpu::Texture2D> phi_;
+  std::vector<gpu::TextureLayers> phi_;
 };
 
 // Makes `phi` what a page table says, from the voxels of all physical pages as PackedField::download() gives

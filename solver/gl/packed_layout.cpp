@@ -4,8 +4,7 @@
 
 namespace tidemark::solver {
 
-PackedLayout::PackedLayout(const PageLayout& layout, std::int64_t largest_texture)
-    : layout_(layout), largest_texture_(largest_texture) {
+PackedLayout::PackedLayout(const PageLayout& layout, const gpu::Capabilities& limits) : layout_(layout) {
   const Index3 shape = layout.page_shape();
   std::int64_t least = -1;
   for (std::int64_t columns = 1; columns <= shape.z; ++columns) {
@@ -18,22 +17,29 @@ PackedLayout::PackedLayout(const PageLayout& layout, std::int64_t largest_textur
   tile_ = {shape.x * tile_columns_, shape.y * (shape.z / tile_columns_)};
   // As few pages a row as the height allows: G then grows in small steps.
   constexpr std::int64_t kLeastPagesPerRow = 16;
-  const std::int64_t rows = std::max<std::int64_t>(1, largest_texture / tile_.y);
+  const std::int64_t most_per_row = std::max<std::int64_t>(1, limits.largest_texture / tile_.x);
+  rows_per_layer_ = std::max<std::int64_t>(1, limits.largest_texture / tile_.y);
   const std::int64_t pages = layout.page_count() + kFirstPage;
-  pages_per_row_ = std::clamp((pages + rows - 1) / rows, kLeastPagesPerRow,
-                              std::max(kLeastPagesPerRow, largest_texture / tile_.x));
+  pages_per_row_ = std::clamp((pages + rows_per_layer_ - 1) / rows_per_layer_,
+                              std::min(kLeastPagesPerRow, most_per_row), most_per_row);
+  // A texture with a texel for each page has all rows one below the other.
+  most_layers_ = std::clamp<std::int64_t>(limits.largest_texture / rows_per_layer_, 1,
+                                          std::max<std::int64_t>(1, limits.largest_layers));
 }
 
 gpu::TexelRect PackedLayout::rect(PhysicalPage page) const {
-  return {page % pages_per_row_ * tile_.x, page / pages_per_row_ * tile_.y, tile_.x, tile_.y};
+  return {page % pages_per_row_ * tile_.x, row(page) % rows_per_layer_ * tile_.y, tile_.x, tile_.y};
 }
 
-std::int64_t PackedLayout::whole_rows(std::int64_t capacity) const {
-  return (capacity + pages_per_row_ - 1) / pages_per_row_ * pages_per_row_;
+std::int64_t PackedLayout::rounded_up(std::int64_t capacity) const {
+  const std::int64_t unit = capacity <= pages_per_layer() ? pages_per_row_ : pages_per_layer();
+  return (capacity + unit - 1) / unit * unit;
 }
 
-glm::i64vec2 PackedLayout::texture_size(std::int64_t capacity) const {
-  return {pages_per_row_ * tile_.x, whole_rows(capacity) / pages_per_row_ * tile_.y};
+Index3 PackedLayout::texture_size(std::int64_t capacity) const {
+  const std::int64_t rows = rounded_up(capacity) / pages_per_row_;
+  const std::int64_t layers = (rows + rows_per_layer_ - 1) / rows_per_layer_;
+  return {pages_per_row_ * tile_.x, std::min(rows, rows_per_layer_) * tile_.y, layers};
 }
 
 void PackedLayout::pack(const float* voxels, float* tile, std::int64_t row_length) const {
@@ -62,7 +68,8 @@ gpu::Defines PackedLayout::defines() const {
           {"PAGE_Y", fmt::to_string(shape.y)},
           {"PAGE_Z", fmt::to_string(shape.z)},
           {"TILE_COLUMNS", fmt::to_string(tile_columns_)},
-          {"PAGES_PER_ROW", fmt::to_string(pages_per_row_)}};
+          {"PAGES_PER_ROW", fmt::to_string(pages_per_row_)},
+          {"ROWS_PER_LAYER", fmt::to_string(rows_per_layer_)}};
 }
 
 void PackedLayout::set_uniforms(const gpu::Program& program) const {

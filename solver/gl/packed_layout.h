@@ -1,9 +1,10 @@
-// The place of a page's voxels in physical memory G, a 2D texture: the C++ side of
+// The place of a page's voxels in physical memory G, one or more 2D textures: the C++ side of
 // resources/shaders/solver/paging.glsl.
 #pragma once
 
 #include <glm/vec2.hpp>
 
+#include "gpu/capabilities.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
 #include "solver/paging/page_layout.h"
@@ -12,26 +13,27 @@
 namespace tidemark::solver {
 
 // The slices of a page lie side by side in a tile of texels, in rows as nearly square as can be: 32 x 16 for
-// (8,8,8), 16 x 16 for (16,16,1). Tiles follow each other in rows; G grows by whole rows of tiles.
+// (8,8,8), 16 x 16 for (16,16,1). Tiles follow each other in rows. G grows by whole rows of tiles, and where
+// a texture cannot be higher, by whole layers of an array of textures.
 class PackedLayout {
  public:
   PackedLayout() = default;
-  // `largest_texture`: texels along an axis that the driver allows.
-  PackedLayout(const PageLayout& layout, std::int64_t largest_texture);
+  PackedLayout(const PageLayout& layout, const gpu::Capabilities& limits);
 
   [[nodiscard]] const PageLayout& layout() const { return layout_; }
   [[nodiscard]] glm::i64vec2 tile() const { return tile_; }  // texels
   [[nodiscard]] std::int64_t pages_per_row() const { return pages_per_row_; }
   // The most physical pages that the driver's textures hold.
-  [[nodiscard]] std::int64_t largest_capacity() const {
-    return pages_per_row_ * (largest_texture_ / tile_.y);
-  }
+  [[nodiscard]] std::int64_t largest_capacity() const { return pages_per_layer() * most_layers_; }
 
-  // The texels of a page.
+  // The row of tiles and the layer that hold a page, and its texels there.
+  [[nodiscard]] std::int64_t row(PhysicalPage page) const { return page / pages_per_row_; }
+  [[nodiscard]] std::int64_t layer(PhysicalPage page) const { return page / pages_per_layer(); }
   [[nodiscard]] gpu::TexelRect rect(PhysicalPage page) const;
-  // `capacity` rounded up to whole rows, and the texture that holds so many pages.
-  [[nodiscard]] std::int64_t whole_rows(std::int64_t capacity) const;
-  [[nodiscard]] glm::i64vec2 texture_size(std::int64_t capacity) const;
+  // `capacity` rounded up to what G grows by, and the layers that hold so many pages: width and height in
+  // texels, and how many.
+  [[nodiscard]] std::int64_t rounded_up(std::int64_t capacity) const;
+  [[nodiscard]] Index3 texture_size(std::int64_t capacity) const;
 
   // Copies a page's voxels (i fastest) to its tile, whose rows are `row_length` values long, and back.
   void pack(const float* voxels, float* tile, std::int64_t row_length) const;
@@ -42,11 +44,14 @@ class PackedLayout {
   void set_uniforms(const gpu::Program& program) const;
 
  private:
+  [[nodiscard]] std::int64_t pages_per_layer() const { return pages_per_row_ * rows_per_layer_; }
+
   PageLayout layout_;
-  std::int64_t largest_texture_ = 0;
   std::int64_t tile_columns_ = 1;  // slices side by side
   glm::i64vec2 tile_{1};
   std::int64_t pages_per_row_ = 1;
+  std::int64_t rows_per_layer_ = 1;  // of a full one
+  std::int64_t most_layers_ = 1;
 };
 
 }  // namespace tidemark::solver

@@ -58,8 +58,7 @@ std::int64_t GeometryEngine::bytes_for(std::int64_t pages) {
 }
 
 std::int32_t GeometryEngine::address(PhysicalPage page) const {
-  const gpu::TexelRect rect = layout_.rect(page);
-  return two_shorts(rect.x, rect.y);
+  return two_shorts(page % layout_.pages_per_row(), layout_.row(page));
 }
 
 void GeometryEngine::append(const PagedMemory<3>& memory, PhysicalPage page) {

@@ -13,10 +13,9 @@ constexpr std::int64_t kPageTexels = kPageSide * kPageSide;
 }  // namespace
 
 void RegionPasses::fill(const GeometryEngine& geometry, const PhysicalMemory& memory, float value) const {
-  memory.draw_into_both();
   fill_.use();
   fill_.set("value", glm::vec4(value));
-  geometry.draw(fill_, Substream::whole_page, 0, geometry.size(), memory.size());
+  draw_into_memory(fill_, geometry, {0, geometry.size()}, memory, PhysicalMemory::Target::both);
   memory.draw_into_motion();
   fill_points_.use();
   fill_points_.set("value", glm::vec4(0.0F));
@@ -24,11 +23,10 @@ void RegionPasses::fill(const GeometryEngine& geometry, const PhysicalMemory& me
 }
 
 void RegionPasses::copy(const GeometryEngine& geometry, const PhysicalMemory& memory, int now) const {
-  memory.draw_into(1 - now);
   use(copy_, memory);
   memory.field().phi(now).bind(1);
   copy_.set("phi_now", 1);
-  geometry.draw(copy_, Substream::whole_page, 0, geometry.size(), memory.size());
+  draw_into_memory(copy_, geometry, {0, geometry.size()}, memory, PhysicalMemory::target(1 - now));
 }
 
 Status RegionPasses::paint(gpu::Device& device, const GeometryEngine& geometry, const PhysicalMemory& memory,
@@ -50,12 +48,11 @@ Status RegionPasses::paint(gpu::Device& device, const GeometryEngine& geometry, 
         std::copy_n(page + y * kPageSide, kPageSide, to + y * width);
     }
     texture->upload({0, 0, texture->width(), texture->height()}, std::as_bytes(std::span(texels)));
-    memory.draw_into_both();
     use(paint_, memory);
     paint_.set("place_texel", 1.0F / glm::vec2(texture->width(), texture->height()));
     texture->bind(1);
     paint_.set("values", 1);
-    geometry.draw(paint_, Substream::whole_page, first, count, memory.size());
+    draw_into_memory(paint_, geometry, {first, count}, memory, PhysicalMemory::Target::both);
   }
   return device.check("painting");
 }

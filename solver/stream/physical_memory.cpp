@@ -7,14 +7,14 @@ namespace tidemark::solver {
 std::int64_t PhysicalMemory::bytes_for(const PackedLayout& layout, std::int64_t capacity) {
   constexpr std::int64_t kPhiBytes = 2 * 4;
   const auto motion = static_cast<std::int64_t>(sizeof(PageMotion));
-  return layout.whole_rows(capacity) * (layout.layout().voxels_per_page() * kPhiBytes + motion);
+  return layout.rounded_up(capacity) * (layout.layout().voxels_per_page() * kPhiBytes + motion);
 }
 
 Result<PhysicalMemory::Motion> PhysicalMemory::make_motion(gpu::Device& device, const PackedLayout& layout,
                                                            std::int64_t capacity) {
   const std::int64_t width = layout.pages_per_row();
   auto texture = gpu::Texture2D::create(device, gpu::TexelFormat::rgba32f, width,
-                                        layout.whole_rows(capacity) / width, "motion of pages");
+                                        layout.rounded_up(capacity) / width, "motion of pages");
   if (!texture) return pass_on(texture);
   auto target = gpu::Framebuffer::create(device, {&*texture}, "motion of pages");
   if (!target) return pass_on(target);
@@ -24,14 +24,20 @@ Result<PhysicalMemory::Motion> PhysicalMemory::make_motion(gpu::Device& device, 
 }
 
 Status PhysicalMemory::make_targets(gpu::Device& device) {
-  auto first = gpu::Framebuffer::create(device, {&field_.phi(0)}, "G, first texture");
-  auto second = gpu::Framebuffer::create(device, {&field_.phi(1)}, "G, second texture");
-  auto both = gpu::Framebuffer::create(device, {&field_.phi(0), &field_.phi(1)}, "G");
-  for (auto* made : {&first, &second, &both}) {
-    if (!*made) return pass_on(*made);
+  std::vector<Layer> layers;
+  for (std::int64_t layer = 0; layer < field_.phi(0).layers(); ++layer) {
+    const auto make = [&](std::initializer_list<const gpu::TextureLayers*> textures) {
+      return gpu::Framebuffer::create_on_layer(device, layer, textures, "G");
+    };
+    auto first = make({&field_.phi(0)});
+    auto second = make({&field_.phi(1)});
+    auto both = make({&field_.phi(0), &field_.phi(1)});
+    for (auto* made : {&first, &second, &both}) {
+      if (!*made) return pass_on(*made);
+    }
+    layers.push_back({{std::move(*first), std::move(*second), std::move(*both)}});
   }
-  targets_ = {std::move(*first), std::move(*second)};
-  both_ = std::move(*both);
+  layers_ = std::move(layers);
   return {};
 }
 
@@ -73,8 +79,8 @@ gpu::TexelRect PhysicalMemory::motion_texel(PhysicalPage page) const {
 // A page of this executor is a tile in the order of its voxels.
 Result<std::vector<float>> PhysicalMemory::read_page(PhysicalPage page, int buffer) const {
   std::vector<float> voxels(static_cast<std::size_t>(field_.layout().layout().voxels_per_page()));
-  TIDEMARK_TRY(
-      field_.phi(buffer).download(field_.layout().rect(page), std::as_writable_bytes(std::span(voxels))));
+  TIDEMARK_TRY(field_.phi(buffer).download(field_.layout().layer(page), field_.layout().rect(page),
+                                           std::as_writable_bytes(std::span(voxels))));
   return voxels;
 }
 

@@ -28,11 +28,16 @@ class PhysicalMemory {
   [[nodiscard]] PackedField& field() { return field_; }
   [[nodiscard]] const PackedField& field() const { return field_; }
   [[nodiscard]] std::int64_t capacity() const { return field_.capacity(); }
+  // Of a layer.
   [[nodiscard]] glm::ivec2 size() const { return {field_.phi(0).width(), field_.phi(0).height()}; }
+  [[nodiscard]] std::int64_t layers() const { return field_.phi(0).layers(); }
 
-  // Drawing goes to one texture of phi, to both, to the motion (a texel a page).
-  void draw_into(int buffer) const { targets_[static_cast<std::size_t>(buffer)].bind(); }
-  void draw_into_both() const { both_.bind(); }
+  // Drawing goes to a layer of one texture of phi, of both, to the motion (a texel a page).
+  enum class Target { first, second, both };
+  [[nodiscard]] static Target target(int buffer) { return buffer == 0 ? Target::first : Target::second; }
+  void draw_into(Target target, std::int64_t layer) const {
+    layers_[static_cast<std::size_t>(layer)].targets[static_cast<std::size_t>(target)].bind();
+  }
   void draw_into_motion() const { motion_target_.bind(); }
   [[nodiscard]] const gpu::Texture2D& motion() const { return motion_; }
   [[nodiscard]] glm::ivec2 motion_size() const { return {motion_.width(), motion_.height()}; }
@@ -66,8 +71,10 @@ class PhysicalMemory {
 
   PackedField field_;
   gpu::Texture2D motion_;
-  std::array<gpu::Framebuffer, 2> targets_;
-  gpu::Framebuffer both_;
+  struct Layer {
+    std::array<gpu::Framebuffer, 3> targets;
+  };
+  std::vector<Layer> layers_;
   gpu::Framebuffer motion_target_;
 };
 

@@ -46,8 +46,9 @@ Status StreamExecutor::record_phi(PassRecord& record) const {
 void StreamExecutor::record_address(PassRecord& record) const {
   const PageLayout& layout = pages_.layout();
   const gpu::TexelRect rect = layout_.rect(record.physical);
-  record.address = {rect.x, rect.y};
-  record.memory_size = memory_.size();
+  const glm::ivec2 layer = memory_.size();
+  record.address = {rect.x, rect.y + layout_.layer(record.physical) * layer.y};
+  record.memory_size = {layer.x, layer.y * memory_.layers()};
   const std::int64_t in_slice = layout.pages().x * layout.pages().y;
   const auto begin = pages_.table().entries().begin() + layout.page_coordinates(record.page).z * in_slice;
   record.slice.assign(begin, begin + in_slice);

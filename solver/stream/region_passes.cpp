@@ -17,7 +17,8 @@ std::int64_t whole_rows(std::int64_t pages) {
          GeometryEngine::kPlacesPerRow;
 }
 
-void bind(const gpu::Program& program, unsigned unit, const gpu::Texture2D& texture, const char* sampler) {
+template <class Texture>
+void bind(const gpu::Program& program, unsigned unit, const Texture& texture, const char* sampler) {
   texture.bind(unit);
   program.set(sampler, static_cast<int>(unit));
 }
@@ -28,6 +29,17 @@ void RegionPasses::use(const gpu::Program& program, const PhysicalMemory& memory
   program.use();
   program.set("phi_texel", 1.0F / glm::vec2(memory.size()));
   program.set("place_texel", 1.0F / glm::vec2(size()));
+}
+
+// The program is in use. Each layer clips the pages of the others.
+void RegionPasses::draw_into_memory(const gpu::Program& program, const GeometryEngine& geometry,
+                                    Region region, const PhysicalMemory& memory,
+                                    PhysicalMemory::Target target) {
+  for (std::int64_t layer = 0; layer < memory.layers(); ++layer) {
+    memory.draw_into(target, layer);
+    program.set("target_layer", static_cast<int>(layer));
+    geometry.draw(program, Substream::whole_page, region.first, region.count, memory.size());
+  }
 }
 
 std::vector<RegionPasses::Region> RegionPasses::regions(std::int64_t pages, std::int64_t largest) {
@@ -165,13 +177,12 @@ void RegionPasses::compute_speeds(const GeometryEngine& geometry, const Physical
 void RegionPasses::update(const GeometryEngine& geometry, const PhysicalMemory& memory,
                           const DriveTextures& drive, const StepConstants<float>& constants, int next,
                           Region region) const {
-  memory.draw_into(next);
   use(update_, memory);
   set_step_uniforms(update_, constants);
   bind(update_, 1, upwind_, "upwind_buffer");
   bind(update_, 2, speed_terms_, "speed_buffer");
   drive.set_constraint_uniforms(update_, 3);
-  geometry.draw(update_, Substream::whole_page, region.first, region.count, memory.size());
+  draw_into_memory(update_, geometry, region, memory, PhysicalMemory::target(next));
 }
 
 void RegionPasses::add_motion(const GeometryEngine& geometry, const PhysicalMemory& memory,

@@ -64,6 +64,8 @@ class RegionPasses {
     std::int64_t count;
   };
   [[nodiscard]] static std::vector<Region> regions(std::int64_t pages, std::int64_t largest);
+  static void draw_into_memory(const gpu::Program& program, const GeometryEngine& geometry, Region region,
+                               const PhysicalMemory& memory, PhysicalMemory::Target target);
   [[nodiscard]] glm::ivec2 size() const { return {upwind_.width(), upwind_.height()}; }
 
   struct Pooled {

@@ -72,8 +72,8 @@ class PhiPictureTest : public QObject {
     for (const solver::Field& phi : fields) {
       QCOMPARE(failure(picture->update(**device, phi, {})), QString());
       QVERIFY(read_back(*picture) == phi.dense());
-      QCOMPARE(failure(picture->table().validate()), QString());
-      QCOMPARE(picture->table().resident(), phi.pages.stored());
+      QCOMPARE(failure(picture->pages().table().validate()), QString());
+      QCOMPARE(picture->pages().table().resident(), phi.pages.stored());
     }
     QCOMPARE((*device)->severe_messages(), 0);
   }
@@ -94,24 +94,32 @@ class PhiPictureTest : public QObject {
   // An executor's memory on the GPU is drawn like a copy of it, also after the memory has grown.
   void an_executors_own_memory_gives_the_same_picture_data() {
     QTest::addColumn<int>("kind");
-    QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
-    QTest::newRow("stream") << static_cast<int>(solver::ExecutorKind::stream);
+    QTest::addColumn<int>("largest_texture");
+    QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute) << 0;
+    QTest::newRow("compute, in layers") << static_cast<int>(solver::ExecutorKind::compute) << 256;
+    QTest::newRow("stream") << static_cast<int>(solver::ExecutorKind::stream) << 0;
   }
   void an_executors_own_memory_gives_the_same_picture() {
     QFETCH(int, kind);
+    QFETCH(int, largest_texture);
     const Geometry geometry = grid({64, 64, 48});
     const Scene scene = ball_scene(geometry, 22.0);
-    auto device = gpu::Device::create_headless({gpu::GlVersion::gl45, true});
+    gpu::DeviceOptions wanted;
+    wanted.debug = true;
+    wanted.largest_texture = largest_texture;
+    auto device = gpu::Device::create_headless(wanted);
     QCOMPARE(failure(device), QString());
     solver::Parameters parameters;
     parameters.target = 100.0;
     parameters.range = 50.0;
     solver::ExecutorOptions options;
     options.device = *device;
+    if (largest_texture > 0) options.page_shape = {16, 16, 1};  // 16 x 16 pages a layer
     auto executor =
         solver::make_executor(static_cast<solver::ExecutorKind>(kind), scene.source, parameters, options);
     QCOMPARE(failure(executor), QString());
-    QCOMPARE(failure((*executor)->paint({scene.middle, 5.0}, solver::Brush::add)), QString());
+    const double radius_mm = largest_texture > 0 ? 20.0 : 5.0;
+    QCOMPARE(failure((*executor)->paint({scene.middle, radius_mm}, solver::Brush::add)), QString());
     const solver::PageLayout layout = (*executor)->snapshot()->layout;
     auto of_copy = renderer::GlRenderer::create(*device, scene.source, layout);
     auto of_memory = renderer::GlRenderer::create(*device, scene.source, layout);
@@ -132,6 +140,9 @@ class PhiPictureTest : public QObject {
               (*of_copy)->draw(renderer::VolumeView(), {96, 96})->pixels);
       QVERIFY((*of_memory)->draw(pages, {96, 96})->pixels == (*of_copy)->draw(pages, {96, 96})->pixels);
     }
+    solver::PackedView view;
+    QVERIFY((*executor)->packed_view(view));
+    QCOMPARE(view.phi->layers() > 1, largest_texture > 0);
     QCOMPARE((*device)->severe_messages(), 0);
   }
 

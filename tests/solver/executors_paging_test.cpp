@@ -17,17 +17,25 @@ std::vector<float> seen_through(const solver::PackedView& view) {
   const solver::PageLayout& pages = view.layout.layout();
   const auto table = view.page_table->download_values<solver::PhysicalPage>(0, pages.page_count());
   const std::int64_t width = view.phi->width();
-  std::vector<float> texels(static_cast<std::size_t>(width * view.phi->height()));
-  if (!view.phi->download({0, 0, width, view.phi->height()}, std::as_writable_bytes(std::span(texels)))) {
-    qFatal("phi cannot be read");
+  const std::int64_t height = view.phi->height();
+  const std::int64_t layer_texels = width * height;
+  std::vector<float> texels(static_cast<std::size_t>(layer_texels * view.phi->layers()));
+  for (std::int64_t layer = 0; layer < view.phi->layers(); ++layer) {
+    const auto into = std::span(texels).subspan(static_cast<std::size_t>(layer * layer_texels),
+                                                static_cast<std::size_t>(layer_texels));
+    if (!view.phi->download(layer, {0, 0, width, height}, std::as_writable_bytes(into))) {
+      qFatal("phi cannot be read");
+    }
   }
   const Geometry geometry = grid(pages.domain_size());
   std::vector<float> phi(static_cast<std::size_t>(geometry.voxel_count()));
   std::vector<float> voxels(static_cast<std::size_t>(pages.voxels_per_page()));
   const Index3 shape = pages.page_shape();
   for (std::int64_t page = 0; page < pages.page_count(); ++page) {
-    const gpu::TexelRect rect = view.layout.rect(table[static_cast<std::size_t>(page)]);
-    view.layout.unpack(texels.data() + rect.y * width + rect.x, width, voxels.data());
+    const solver::PhysicalPage physical = table[static_cast<std::size_t>(page)];
+    const gpu::TexelRect rect = view.layout.rect(physical);
+    view.layout.unpack(texels.data() + view.layout.layer(physical) * layer_texels + rect.y * width + rect.x,
+                       width, voxels.data());
     const Index3 first = pages.first_voxel(page);
     const Index3 valid = pages.valid_shape(page);
     for (std::int64_t z = 0; z < valid.z; ++z) {

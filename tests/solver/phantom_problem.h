@@ -29,6 +29,12 @@ struct PhantomProblem {
     return problem;
   }
 
+  // The voxel in the middle of the seed.
+  [[nodiscard]] glm::dvec3 middle() const {
+    const auto& [i, j, k, radius_mm] = *phantom.seed;
+    return {i, j, k};
+  }
+
   // From its threshold, or else from its seed.
   Status begin(solver::Executor& level_set) const {
     if (phantom.init_threshold) {

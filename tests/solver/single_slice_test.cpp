@@ -75,7 +75,11 @@ class SingleSliceTest : public QObject {
     }
   }
 
+  // The level set in the plane, in stream's and compute's case in pages of 16 x 16 voxels, beside that of the
+  // same picture drawn out along the third axis.
+  void a_slice_evolves_as_each_of_equal_slices_does_data() { add_all_rows(); }
   void a_slice_evolves_as_each_of_equal_slices_does() {
+    const Setting setting = this_row();
     const auto source = [](glm::dvec3 p) {
       return 100.0 - 3.0 * std::hypot(p.x - 19.0, p.y - 21.0) +
              12.0 * std::sin(p.x / 3.0) * std::cos(p.y / 4.0);
@@ -85,20 +89,20 @@ class SingleSliceTest : public QObject {
     parameters.range = 25.0;
     parameters.alpha = 0.6;
     parameters.band = 4.0;  // that of the thick slices
-    for (const auto kind : {solver::ExecutorKind::reference, solver::ExecutorKind::host}) {
-      std::vector<std::vector<float>> results;
-      for (const std::int64_t slices : {1, 5}) {
-        const Geometry geometry = grid({40, 40, slices}, {1.0, 1.0, 2.0});
-        const auto level_set = executor(kind, volume_of(geometry, source), parameters);
-        set_phi(*level_set, geometry, [](glm::dvec3 p) { return 8.0 - std::hypot(p.x - 18.3, p.y - 20.6); });
-        run(*level_set, 60);
-        results.push_back(level_set->snapshot().value().dense());
-      }
-      for (std::size_t v = 0; v < results[1].size(); ++v) {
-        QVERIFY(std::abs(results[1][v] - results[0][v % results[0].size()]) <=
-                1e-5F);  // rounding of 60 steps
-      }
+    std::vector<std::vector<float>> results;
+    for (const std::int64_t slices : {1, 5}) {
+      const Geometry geometry = grid({40, 40, slices}, {1.0, 1.0, 2.0});
+      const auto level_set = setting.make(volume_of(geometry, source), parameters);
+      set_phi(*level_set, geometry, [](glm::dvec3 p) { return 8.0 - std::hypot(p.x - 18.3, p.y - 20.6); });
+      run(*level_set, 60);
+      results.push_back(level_set->snapshot().value().dense());
     }
+    float largest = 0.0F;
+    for (std::size_t v = 0; v < results[1].size(); ++v) {
+      largest = std::max(largest, std::abs(results[1][v] - results[0][v % results[0].size()]));
+    }
+    qInfo("they differ by %.1e voxels at most", static_cast<double>(largest));
+    QVERIFY(largest <= 1e-5F);  // rounding of 60 steps
   }
 
   void each_step_is_the_references_step_data() { add_rows_with_host(); }

@@ -41,9 +41,7 @@ struct FullMemory {
   solver::GeometryEngine geometry;
 
   explicit FullMemory(Index3 size)
-      : pages(size, kPageShape),
-        layout(pages, gpu->capabilities().largest_texture),
-        table(pages, solver::kUnlimited) {
+      : pages(size, kPageShape), layout(pages, gpu->capabilities()), table(pages, solver::kUnlimited) {
     for (std::int64_t page = 0; page < pages.page_count(); ++page)
       list.push_back(table.make_resident(page).value());
     memory = good(solver::PhysicalMemory::create(*gpu, layout, table.table().capacity(), 2.5F));
@@ -54,7 +52,7 @@ struct FullMemory {
 
   // How often each texel of G is drawn, in the order of physical pages.
   std::vector<float> count(std::initializer_list<solver::Substream> substreams) {
-    memory.draw_into(0);
+    memory.draw_into(solver::PhysicalMemory::Target::first, 0);
     gpu::clear_colours(1);
     for (const solver::Substream substream : substreams) {
       gpu::Defines defines = geometry.defines(substream);
@@ -64,6 +62,7 @@ struct FullMemory {
       const gpu::BlendScope added(gpu::Blending::add);
       program.use();
       program.set("value", glm::vec4(1.0F));
+      program.set("target_layer", 0);
       geometry.draw(program, substream, 0, geometry.size(), memory.size());
     }
     return good(memory.field().download(0));
@@ -178,7 +177,7 @@ class StreamTest : public QObject {
     const solver::Model model(source->geometry, {}, *tent);
     const auto gpu = device();
     const solver::PageLayout pages(geometry.size, kPageShape);
-    const solver::PackedLayout layout(pages, gpu->capabilities().largest_texture);
+    const solver::PackedLayout layout(pages, gpu->capabilities());
     solver::PagedMemory<3> table(pages, solver::kUnlimited);
     const solver::PhysicalPage page = table.make_resident(pages.page_number({1, 1, 1})).value();
     const float band = 2.5F;
@@ -348,7 +347,8 @@ class StreamTest : public QObject {
       for (std::sregex_iterator i(source.text.begin(), source.text.end(), sampler), end; i != end; ++i) {
         const std::string type = (*i)[1];
         const std::string uniform = (*i)[2];
-        QVERIFY2(type == "sampler2D" || uniform.ends_with("_volume"), uniform.c_str());
+        QVERIFY2(type == "sampler2D" || uniform.starts_with("phi_") || uniform.ends_with("_volume"),
+                 uniform.c_str());
         QVERIFY2(uniform.find("table") == std::string::npos && uniform.find("record") == std::string::npos,
                  uniform.c_str());
       }

@@ -6,16 +6,16 @@
 uniform int slice;
 
 flat in ivec3 first_voxel;
-flat in ivec2 origin[7];
+flat in ivec3 origin[7];
 out vec4 phi_and_rise;
 
-float fetch(ivec2 page, ivec3 local) {
+float fetch(ivec3 page, ivec3 local) {
   return texelFetch(phi_pages, page + texel_in_page(local), 0).r;
 }
 
 // Half the difference of the neighbours along an axis, whose unit vector is `unit`. Beyond the volume phi goes on as it is
 // on its last voxel.
-float slope(ivec3 local, ivec3 unit, int at, int last, int in_page, int shape, ivec2 before, ivec2 behind) {
+float slope(ivec3 local, ivec3 unit, int at, int last, int in_page, int shape, ivec3 before, ivec3 behind) {
   bool leaves_low = in_page == 0;
   bool leaves_high = in_page == shape - 1;
   ivec3 low = at == 0 ? local : leaves_low ? local + (shape - 1) * unit : local - unit;

@@ -10,10 +10,10 @@ uniform int first_shown;             // of this slice's layer
 
 flat out ivec3 first_voxel;          // of the page
 // Where the page and its neighbours lie in G: itself, then before and behind it along x, y and z.
-flat out ivec2 origin[7];
+flat out ivec3 origin[7];
 
 // Beyond the volume there is nothing to fetch, so any page will do.
-ivec2 origin_of(ivec3 page) {
+ivec3 origin_of(ivec3 page) {
   return page_origin(physical_page(clamp(page, ivec3(0), page_grid - 1)));
 }
 
@@ -24,7 +24,7 @@ void main() {
   ivec3 page = page_coordinates(texelFetch(shown_pages, first_shown + index).r);
   first_voxel = page * kPageShape;
   const ivec2 u = ivec2(1, 0);
-  origin = ivec2[](origin_of(page), origin_of(page - u.xyy), origin_of(page + u.xyy), origin_of(page - u.yxy),
+  origin = ivec3[](origin_of(page), origin_of(page - u.xyy), origin_of(page + u.xyy), origin_of(page - u.yxy),
                    origin_of(page + u.yxy), origin_of(page - u.yyx), origin_of(page + u.yyx));
   vec2 at = vec2(min(first_voxel.ACROSS + corner * kPageShape.ACROSS, volume_size.ACROSS));
   gl_Position = vec4(2.0 * at / vec2(volume_size.ACROSS) - 1.0, 0.0, 1.0);

@@ -1,8 +1,9 @@
 // Address translation (paper section 3.2): where a voxel's values lie in physical memory G.
 //
 // From the page layout: PAGE_X, PAGE_Y, PAGE_Z, a page's shape; TILE_COLUMNS, how many slices of a page lie side
-// by side in G (the others follow below); PAGES_PER_ROW, how many pages lie side by side in G. Kernels speak of
-// voxels and of places in a page; nothing but this file knows how they are laid out.
+// by side in G (the others follow below); PAGES_PER_ROW, how many pages lie side by side in G; ROWS_PER_LAYER, how many
+// such rows a layer of G has. Kernels speak of voxels and of places in a page; nothing but this file knows how they are
+// laid out.
 
 const ivec3 kPageShape = ivec3(PAGE_X, PAGE_Y, PAGE_Z);
 const ivec2 kTile = ivec2(PAGE_X * TILE_COLUMNS, PAGE_Y * (PAGE_Z / TILE_COLUMNS));
@@ -28,10 +29,16 @@ ivec3 page_coordinates(int number) {
   return ivec3(number - row * page_grid.x, row % page_grid.y, row / page_grid.y);
 }
 
-// The first texel of a physical page, and a voxel's texel counted from there.
-ivec2 page_origin(int physical) {
-  return ivec2(physical % PAGES_PER_ROW, physical / PAGES_PER_ROW) * kTile;
+// The first texel of a physical page with its layer, and a voxel's texel counted from there.
+ivec3 page_origin(int physical) {
+  int row = physical / PAGES_PER_ROW;
+  int layer = row / ROWS_PER_LAYER;
+  return ivec3(ivec2(physical - row * PAGES_PER_ROW, row - layer * ROWS_PER_LAYER) * kTile, layer);
 }
-ivec2 texel_in_page(ivec3 local) {
-  return ivec2(local.x + PAGE_X * (local.z % TILE_COLUMNS), local.y + PAGE_Y * (local.z / TILE_COLUMNS));
+ivec3 texel_in_page(ivec3 local) {
+  return ivec3(local.x + PAGE_X * (local.z % TILE_COLUMNS), local.y + PAGE_Y * (local.z / TILE_COLUMNS), 0);
+}
+// The texel of that number in a page's tile.
+ivec3 texel_of_tile(int number) {
+  return ivec3(number % kTile.x, number / kTile.x, 0);
 }

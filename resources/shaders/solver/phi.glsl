@@ -3,7 +3,7 @@
 
 #include "solver/paging.glsl"
 
-uniform sampler2D phi_pages;           // physical memory G
+uniform sampler2DArray phi_pages;      // physical memory G
 uniform vec2 phi_texel;                // a texel of it in texture coordinates
 uniform isamplerBuffer page_table;     // V_P -> G_P
 uniform float band;
@@ -15,7 +15,8 @@ int physical_page(ivec3 page) {
 
 // By coordinates, not by number: drivers on a processor work out a level for each texel that is fetched by number.
 float phi_in(int physical, ivec3 local) {
-  return textureLod(phi_pages, (vec2(page_origin(physical) + texel_in_page(local)) + 0.5) * phi_texel, 0.0).r;
+  ivec3 texel = page_origin(physical) + texel_in_page(local);
+  return textureLod(phi_pages, vec3((vec2(texel.xy) + 0.5) * phi_texel, texel.z), 0.0).r;
 }
 
 float phi_at(ivec3 voxel) {

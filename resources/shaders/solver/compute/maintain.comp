@@ -8,8 +8,8 @@ layout(local_size_x = MAINTAINERS) in;
 const int kInvocations = MAINTAINERS;  // 8 at least
 
 // Units beside those of the other kernels, which bind theirs anew.
-layout(binding = 2, r32f) uniform restrict writeonly image2D phi_a;
-layout(binding = 3, r32f) uniform restrict writeonly image2D phi_b;
+layout(binding = 2, r32f) uniform restrict writeonly image2DArray phi_a;
+layout(binding = 3, r32f) uniform restrict writeonly image2DArray phi_b;
 uniform float band;
 uniform float quiet_change;
 uniform bool count_step;  // false when codes were only measured
@@ -85,9 +85,9 @@ void main() {
   barrier();
   for (int face = 0; face < 6; ++face) {
     if (made[face] < 0) continue;
-    ivec2 origin = page_origin(made[face]);
+    ivec3 origin = page_origin(made[face]);
     for (int i = index; i < kTile.x * kTile.y; i += kInvocations) {
-      ivec2 texel = origin + ivec2(i % kTile.x, i / kTile.x);
+      ivec3 texel = origin + texel_of_tile(i);
       imageStore(phi_a, texel, vec4(made_of[face]));
       imageStore(phi_b, texel, vec4(made_of[face]));
     }

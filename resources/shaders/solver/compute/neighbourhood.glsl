@@ -12,12 +12,12 @@
 
 const int kInvocations = PAGE_X * (PAGE_Y / BLOCK) * (PAGE_Z / DEPTH);
 
-uniform sampler2D phi_now;
+uniform sampler2DArray phi_now;
 
 shared int neighbours[27];
 
 // Of the page.
-ivec2 origin = ivec2(0);
+ivec3 origin = ivec3(0);
 ivec3 first_voxel = ivec3(0);
 ivec3 lowest = ivec3(0);   // the least and the greatest local coordinate with a voxel of its own, -1..PAGE
 ivec3 highest = ivec3(0);
@@ -58,13 +58,13 @@ void gather_apron() {
     ivec2 place = clamp(ivec2(i % kApron.x, i / kApron.x) - 1, lowest.xy, highest.xy);
     ivec2 step = page_step(ivec3(place, 0)).xy;
     int column = 13 + step.x + 3 * step.y;
-    ivec2 before = page_origin(neighbours[column - 9]);
-    ivec2 here = page_origin(neighbours[column]);
-    ivec2 behind = page_origin(neighbours[column + 9]);
+    ivec3 before = page_origin(neighbours[column - 9]);
+    ivec3 here = page_origin(neighbours[column]);
+    ivec3 behind = page_origin(neighbours[column + 9]);
     place -= step * kPageShape.xy;
     for (int z = -1; z <= PAGE_Z; ++z) {
       int inside = clamp(z, lowest.z, highest.z);
-      ivec2 page = inside < 0 ? before : inside >= PAGE_Z ? behind : here;
+      ivec3 page = inside < 0 ? before : inside >= PAGE_Z ? behind : here;
       int slice = inside < 0 ? PAGE_Z - 1 : inside >= PAGE_Z ? 0 : inside;
       apron[i + kColumns * (z + 1)] = texelFetch(phi_now, page + texel_in_page(ivec3(place, slice)), 0).r;
     }
@@ -81,21 +81,21 @@ void load_slice(int z, out float slice[SLICE_VALUES]) {
 #else
 // The texels at which columns begin in the page that is being walked along z: at x - 1, x and x + 1, each before the
 // block, at its first column and behind it.
-ivec2 column_start[9];
+ivec3 column_start[9];
 
 void find_columns(int page_along_z) {
   for (int i = 0; i < 9; ++i) {
     ivec2 place = block_start + ivec2(i % 3 - 1, i / 3 == 0 ? -1 : i / 3 == 1 ? 0 : BLOCK);
     ivec3 voxel = clamp(ivec3(place, 0), lowest, highest);  // Neumann at the volume's border
     ivec3 step = page_step(voxel);
-    ivec2 page = page_origin(neighbours[13 + step.x + 3 * step.y + 9 * page_along_z]);
-    column_start[i] = page + voxel.xy - step.xy * kPageShape.xy;
+    ivec3 page = page_origin(neighbours[13 + step.x + 3 * step.y + 9 * page_along_z]);
+    column_start[i] = page + ivec3(voxel.xy - step.xy * kPageShape.xy, 0);
   }
 }
-void load_row(int row, ivec2 shift, inout float slice[SLICE_VALUES]) {
+void load_row(int row, ivec3 shift, inout float slice[SLICE_VALUES]) {
   int part = row == 0 ? 0 : row == BLOCK + 1 ? 2 : 1;
   // Rows of the block beyond the volume repeat its last row.
-  ivec2 texel = shift + ivec2(0, part == 1 ? clamp(highest.y - block_start.y, 0, row - 1) : 0);
+  ivec3 texel = shift + ivec3(0, part == 1 ? clamp(highest.y - block_start.y, 0, row - 1) : 0, 0);
   slice[3 * row] = texelFetch(phi_now, column_start[3 * part] + texel, 0).r;
   slice[3 * row + 1] = texelFetch(phi_now, column_start[3 * part + 1] + texel, 0).r;
   slice[3 * row + 2] = texelFetch(phi_now, column_start[3 * part + 2] + texel, 0).r;
@@ -105,7 +105,7 @@ void load_slice(int z, out float slice[SLICE_VALUES]) {
   int page_along_z = inside < 0 ? -1 : inside >= PAGE_Z ? 1 : 0;
   // At the volume's end the last slice is read again, and the columns stay.
   if (z == -1 || z == 0 || z == PAGE_Z) find_columns(page_along_z);
-  ivec2 shift = texel_in_page(ivec3(0, 0, inside - page_along_z * PAGE_Z));
+  ivec3 shift = texel_in_page(ivec3(0, 0, inside - page_along_z * PAGE_Z));
 #define LOAD_ROW(row) load_row(row, shift, slice);
   FOR_ROWS(LOAD_ROW)
 }

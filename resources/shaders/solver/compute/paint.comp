@@ -7,8 +7,8 @@
 
 layout(local_size_x = PAGE_X, local_size_y = PAGE_Y) in;
 
-layout(binding = 0, r32f) uniform restrict image2D phi_now;
-layout(binding = 1, r32f) uniform restrict writeonly image2D phi_other;
+layout(binding = 0, r32f) uniform restrict image2DArray phi_now;
+layout(binding = 1, r32f) uniform restrict writeonly image2DArray phi_other;
 uniform ivec3 first_page;
 uniform vec3 centre;          // voxels
 uniform float radius;         // in units of the smallest spacing
@@ -42,7 +42,7 @@ void main() {
   int entry = page;
   bool resident = entry >= kFirstPage;
   float constant = entry == kInsidePage ? band : -band;
-  ivec2 origin = resident ? page_origin(entry) : ivec2(0);
+  ivec3 origin = resident ? page_origin(entry) : ivec3(0);
   uint code = 0u;
   bool different = false;
   if (in_volume) {
@@ -75,7 +75,7 @@ void main() {
   }
   barrier();
   if (page >= kFirstPage && in_volume) {
-    ivec2 to = page_origin(page);
+    ivec3 to = page_origin(page);
     for (int z = 0; z < valid.z; ++z) {
       ivec3 local = ivec3(column, z);
       float old = resident ? imageLoad(phi_now, to + texel_in_page(local)).r : constant;

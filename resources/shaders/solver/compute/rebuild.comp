@@ -5,8 +5,8 @@
 
 layout(local_size_x = 64) in;
 
-layout(binding = 0, r32f) uniform restrict image2D phi_now;
-layout(binding = 1, r32f) uniform restrict image2D phi_other;
+layout(binding = 0, r32f) uniform restrict image2DArray phi_now;
+layout(binding = 1, r32f) uniform restrict image2DArray phi_other;
 uniform bool wake_all;
 
 shared bool falls_asleep;
@@ -35,9 +35,9 @@ void main() {
   }
   barrier();
   if (!falls_asleep) return;
-  ivec2 origin = page_origin(page);
+  ivec3 origin = page_origin(page);
   for (int i = index; i < kTile.x * kTile.y; i += 64) {
-    ivec2 texel = origin + ivec2(i % kTile.x, i / kTile.x);
+    ivec3 texel = origin + texel_of_tile(i);
     imageStore(phi_other, texel, imageLoad(phi_now, texel));
   }
 }

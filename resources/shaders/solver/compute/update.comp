@@ -10,7 +10,7 @@
 
 layout(local_size_x = PAGE_X, local_size_y = PAGE_Y / BLOCK, local_size_z = PAGE_Z / DEPTH) in;
 
-layout(binding = 0, r32f) uniform restrict image2D phi_next;  // holds phi of one step earlier
+layout(binding = 0, r32f) uniform restrict image2DArray phi_next;  // holds phi of one step earlier
 
 uniform bool measure_motion;
 uniform float near;  // |phi| of a voxel beside the surface is at most this
@@ -54,7 +54,7 @@ void note(float phi, float phi_before, ivec3 local) {
 
 void compute_voxel(int i, int z, float below[SLICE_VALUES], float here[SLICE_VALUES], float above[SLICE_VALUES]) {
   ivec3 local = ivec3(block_start + ivec2(0, i), z);
-  ivec2 texel = origin + texel_in_page(local);
+  ivec3 texel = origin + texel_in_page(local);
   ivec3 voxel = first_voxel + min(local, last);
   Differences d = differences(stencil_of(i, below, here, above));
   float phi = constrained(updated_phi(d, speeds_at(voxel, d)), voxel);

@@ -2,10 +2,10 @@
 
 #include "solver/stream/coordinates.glsl"
 
-uniform sampler2D phi_now;
+uniform sampler2DArray phi_now;
 
 flat in vec2 to_phi;
 
 layout(location = 0) out float phi_other;
 
-void main() { phi_other = textureLod(phi_now, gl_FragCoord.xy * phi_texel + to_phi, 0.0).r; }
+void main() { phi_other = texel_of(phi_now, gl_FragCoord.xy * phi_texel + to_phi); }

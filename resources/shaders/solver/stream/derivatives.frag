@@ -4,8 +4,8 @@
 // Step A of the level-set computation (paper section 4.3): the neighbourhood is gathered once, all differences follow.
 // Where each neighbour lies is settled before a fragment is born.
 
-uniform sampler2D phi_now;
-uniform sampler2D phi_before;  // one step earlier
+uniform sampler2DArray phi_now;
+uniform sampler2DArray phi_before;  // one step earlier
 uniform bool measure_motion;
 
 flat in vec2 to_phi;
@@ -15,7 +15,7 @@ layout(location = 1) out vec4 central;
 layout(location = 2) out vec4 second;
 layout(location = 3) out vec4 mixed;
 
-float phi_at(vec2 position) { return textureLod(phi_now, position, 0.0).r; }
+float phi_at(vec2 position) { return texel_of(phi_now, position); }
 
 #if defined(INTERIOR)
 flat in vec4 slice_shifts;
@@ -49,7 +49,7 @@ Stencil gather(vec2 here) {
 
 void main() {
   vec2 here = gl_FragCoord.xy * phi_texel + to_phi;
-  float earlier = measure_motion ? textureLod(phi_before, here, 0.0).r : 0.0;
+  float earlier = measure_motion ? texel_of(phi_before, here) : 0.0;
   PackedDifferences d = pack(differences(gather(here)), earlier);
   upwind = d.upwind;
   central = d.central;

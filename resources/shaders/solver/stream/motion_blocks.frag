@@ -3,7 +3,7 @@
 
 #include "solver/stream/coordinates.glsl"
 
-uniform sampler2D phi_next;
+uniform sampler2DArray phi_next;
 uniform sampler2D central_buffer;  // phi before, in its last channel
 uniform float near;
 
@@ -20,7 +20,7 @@ void main() {
     for (int x = 0; x < 4; ++x) {
       ivec2 at = ivec2(x, y);
       vec2 here = vec2(4 * block + at) + 0.5;
-      float phi = textureLod(phi_next, here * phi_texel + to_phi, 0.0).r;
+      float phi = texel_of(phi_next, here * phi_texel + to_phi);
       if (any(greaterThanEqual(first + at, valid_texels))) continue;
       motion.y += clamp(phi, -near, near) + near;
       if (abs(phi) > near) continue;

@@ -3,7 +3,7 @@
 
 #include "solver/stream/coordinates.glsl"
 
-uniform sampler2D phi_now;
+uniform sampler2DArray phi_now;
 uniform float band;
 
 flat in vec2 to_phi;
@@ -14,7 +14,7 @@ flat in ivec2 valid_texels;
 layout(location = 0) out vec4 across_in_slice;  // differs from its neighbour in the page at -x, +x, -y, +y
 layout(location = 1) out vec4 across_slices;    // ... at -z, +z; is not inside; is not outside
 
-float phi_at(vec2 position) { return textureLod(phi_now, position, 0.0).r; }
+float phi_at(vec2 position) { return texel_of(phi_now, position); }
 
 void main() {
   ivec2 last = valid_texels - 1;

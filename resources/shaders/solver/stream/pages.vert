@@ -5,8 +5,12 @@
 //
 // INTERIOR, EDGES, CORNERS: the nine substreams, as a quad, four lines and four points a page.
 // WHOLE: the page as one quad. QUARTERS: likewise, in a buffer of a quarter of the size.
-// IN_MEMORY: drawn into G, else into the intermediate buffers.
+// IN_MEMORY: drawn into a layer of G, else into the intermediate buffers.
 // NEIGHBOURS: with the addresses of the neighbours, which for QUARTERS are those across the faces of the page.
+
+#ifdef IN_MEMORY
+uniform int target_layer;
+#endif
 
 flat out vec2 to_phi;       // from the texel that is drawn to the same voxel's in G, in G's texture coordinates
 flat out vec2 to_place;     // ... in the intermediate buffers, in theirs
@@ -98,7 +102,8 @@ void main() {
   bool drawn = place_vertex(gl_VertexID % kVertices, valid_texels, at, local);
 
 #if defined(IN_MEMORY)
-  ivec2 origin = own;
+  ivec2 origin = own - ivec2(0, target_layer * kLayerHeight);
+  drawn = drawn && own.y / kLayerHeight == target_layer;
 #elif defined(QUARTERS)
   ivec2 origin = place / 4;
 #else
