@@ -53,10 +53,7 @@ ClipPlaneStoryTest::Snapshot ClipPlaneStoryTest::snapshot(Desktop& desktop) {
 }
 
 void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_plays_data() {
-  QTest::addColumn<int>("executor");
-  QTest::newRow("host") << static_cast<int>(solver::ExecutorKind::host);
-  QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
-  QTest::newRow("stream") << static_cast<int>(solver::ExecutorKind::stream);
+  add_executor_rows();
 }
 
 void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_plays() {

@@ -28,6 +28,18 @@ solver::ExecutorKind story_executor() {
   qFatal("TIDEMARK_STORIES is \"%s\": it can be host, compute or stream", name.constData());
 }
 
+void add_executor_rows(std::initializer_list<solver::ExecutorKind> besides) {
+  QTest::addColumn<int>("executor");
+  const auto add = [](solver::ExecutorKind kind) {
+    for (const char* name : {"auto", "host", "compute", "stream", "reference"}) {
+      if (solver::executor_named(name) == kind) QTest::newRow(name) << static_cast<int>(kind);
+    }
+  };
+  add(story_executor());
+  if (!qEnvironmentVariableIsEmpty("TIDEMARK_STORIES")) return;
+  for (const solver::ExecutorKind kind : besides) add(kind);
+}
+
 QByteArray renderer_beside(solver::ExecutorKind executor) {
   switch (executor) {
     case solver::ExecutorKind::automatic:

@@ -22,9 +22,12 @@
 
 namespace tidemark::test {
 
-// The executor of stories that run with one only: host, or the one that TIDEMARK_STORIES names
-// ("compute" or "stream").
+// The executor of stories: host, or the one that TIDEMARK_STORIES names ("compute" or "stream").
 solver::ExecutorKind story_executor();
+
+// Rows of a story by "executor": that one, and unless TIDEMARK_STORIES names it those that the story is most
+// about.
+void add_executor_rows(std::initializer_list<solver::ExecutorKind> besides = {});
 
 // What works in the memory of that executor, for TIDEMARK_RENDERER.
 QByteArray renderer_beside(solver::ExecutorKind executor);

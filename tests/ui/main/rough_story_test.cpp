@@ -191,10 +191,7 @@ void RoughStoryTest::keys_of_undo_and_redo_are_hammered_while_it_plays() {
 }
 
 void RoughStoryTest::a_lost_context_is_made_good_data() {
-  QTest::addColumn<int>("executor");
-  QTest::newRow("host") << static_cast<int>(solver::ExecutorKind::host);
-  QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
-  QTest::newRow("stream") << static_cast<int>(solver::ExecutorKind::stream);
+  add_executor_rows({solver::ExecutorKind::compute});
 }
 
 void RoughStoryTest::a_lost_context_is_made_good() {

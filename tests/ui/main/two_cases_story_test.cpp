@@ -228,9 +228,7 @@ void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
 }
 
 void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step_data() {
-  QTest::addColumn<int>("executor");
-  QTest::newRow("host") << static_cast<int>(solver::ExecutorKind::host);
-  QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
+  add_executor_rows();
 }
 
 void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {

@@ -61,9 +61,7 @@ class WhyStoryTest : public QObject {
 };
 
 void WhyStoryTest::a_place_is_explained_turned_and_followed_data() {
-  QTest::addColumn<int>("executor");
-  QTest::newRow("host") << static_cast<int>(solver::ExecutorKind::host);
-  QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute);
+  add_executor_rows();
 }
 
 void WhyStoryTest::a_place_is_explained_turned_and_followed() {
