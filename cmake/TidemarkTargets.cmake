@@ -71,11 +71,11 @@ function(tidemark_cache_precompiled target)
 endfunction()
 
 # A test program: one for a folder, of as many test classes as its folder has (tests/support/test_program.h).
-#   tidemark_test_program(name [WINDOWS] [MAIN lib] [HEADERS target] [SOURCES helper.cpp...] LINKS lib...)
-# WINDOWS: it runs on a screen of its own that nobody sees. MAIN: who has main(); HEADERS: whose precompiled headers it
+#   tidemark_test_program(name [WINDOWS] [MAIN lib] [HEADERS target] [RUNS program...] [SOURCES helper.cpp...] LINKS lib...)
+# WINDOWS: it runs on a screen of its own that nobody sees. RUNS: it starts these programs of ours. MAIN: who has main(); HEADERS: whose precompiled headers it
 # takes over. Both have a suitable default; HEADERS NONE is for programs that see Qt Gui without Qt's widgets.
 function(tidemark_test_program name)
-  cmake_parse_arguments(arg "WINDOWS" "MAIN;HEADERS" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(arg "WINDOWS" "MAIN;HEADERS" "RUNS;SOURCES;LINKS" ${ARGN})
   if(NOT arg_MAIN)
     set(arg_MAIN $<IF:$<BOOL:${arg_WINDOWS}>,tidemark_window_test_main,tidemark_test_main>)
   endif()
@@ -91,6 +91,11 @@ function(tidemark_test_program name)
   endif()
   target_compile_options(${name} PRIVATE ${TIDEMARK_TEST_OPTIONS})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  if(arg_RUNS)
+    add_dependencies(${name} ${arg_RUNS})
+    list(TRANSFORM arg_RUNS REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE programs)
+    set_target_properties(${name} PROPERTIES TIDEMARK_RUNS "${programs}")
+  endif()
   if(arg_WINDOWS)
     set_target_properties(${name} PROPERTIES
       CROSSCOMPILING_EMULATOR "xvfb-run;-a;-s;-screen 0 2600x1700x24 -nolisten tcp")
@@ -134,6 +139,11 @@ function(tidemark_ctest name program)
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77
                        ENVIRONMENT "${environment}")
+  get_target_property(programs ${program} TIDEMARK_RUNS)
+  if(programs)
+    # tests/run_changed.py looks at them, too.
+    set_tests_properties(${name} PROPERTIES REQUIRED_FILES "${programs}")
+  endif()
 endfunction()
 
 # tidemark_spare_openvdb(target sources...): what includes OpenVDB. Its trees hold TBB's hash map, which casts what is no
