@@ -39,28 +39,26 @@ bool same_speed(const Drive& a, const Drive& b) {
 bool cover(const Drive& drive, const Drive& earlier) {
   if (earlier.constraints == nullptr || earlier.constraints->empty()) return true;
   if (drive.constraints == nullptr) return false;
-  for (std::int64_t i = 0; i < earlier.constraints->layout().page_count(); ++i) {
-    const auto* before = earlier.constraints->page(i);
-    const auto* now = drive.constraints->page(i);
-    if (before == nullptr || before == now) continue;
-    if (now == nullptr) return false;
-    const bool covered = std::equal(
-        before->begin(), before->end(), now->begin(),
-        [](solver::Constraint a, solver::Constraint b) { return a == solver::Constraint::none || a == b; });
-    if (!covered) return false;
-  }
-  return true;
+  bool covered = true;
+  const auto look_at = [&](std::int64_t page) {
+    const solver::Constraint* const before = earlier.constraints->page(page);
+    const solver::Constraint* const now = drive.constraints->page(page);
+    if (before == nullptr) return;
+    covered = covered && now != nullptr &&
+              std::equal(before, before + solver::Constraints::kPageVoxels, now,
+                         [](auto a, auto b) { return a == solver::Constraint::none || a == b; });
+  };
+  solver::Constraints::Pages::for_each_difference(earlier.constraints->pages(), drive.constraints->pages(),
+                                                  look_at);
+  return covered;
 }
 
 std::int64_t bytes_of(const Drive& drive) {
   std::size_t bytes = 0;
   if (drive.strokes)
     bytes += (drive.strokes->inside.size() + drive.strokes->outside.size()) * sizeof(std::int64_t);
-  // Pages are shared with the constraints before; the list of them is not.
-  if (drive.constraints) {
-    bytes += static_cast<std::size_t>(drive.constraints->layout().page_count()) *
-             sizeof(std::shared_ptr<const solver::Constraints::Page>);
-  }
+  // Pages are shared with the constraints before.
+  if (drive.constraints) bytes += static_cast<std::size_t>(drive.constraints->pages().copy_bytes());
   return static_cast<std::int64_t>(bytes);
 }
 

@@ -179,8 +179,7 @@ Constraints coarsened(const Constraints& constraints, const CoarseGrid& grid) {
   std::vector<Index3> walls;
   std::vector<Index3> anchors;
   const PageLayout& layout = constraints.layout();
-  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-    if (constraints.page(page) == nullptr) continue;
+  for (const std::int64_t page : constraints.pages().stored_pages()) {
     // Sides of pages are multiples of every factor: no block lies in two of them.
     const Index3 first = layout.first_voxel(page) / grid.factor();
     const Index3 count = (layout.valid_shape(page) + grid.factor() - Index3(1)) / grid.factor();

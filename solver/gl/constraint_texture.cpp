@@ -21,18 +21,17 @@ Result<ConstraintTexture> ConstraintTexture::create(gpu::Device& device, Index3 
 void ConstraintTexture::show(const Constraints& constraints) {
   const PageLayout& layout = constraints.layout();
   std::vector<Constraint> values;
-  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-    const Constraints::Page* there = constraints.page(page);
-    if (there == shown_.page(page)) continue;
+  Constraints::Pages::for_each_difference(constraints.pages(), shown_.pages(), [&](std::int64_t page) {
+    const Constraint* const there = constraints.page(page);
     const Index3 valid = layout.valid_shape(page);
     values.assign(static_cast<std::size_t>(valid.x * valid.y * valid.z), Constraint::none);
     for (std::int64_t row = 0; there != nullptr && row < valid.y * valid.z; ++row) {
       const std::int64_t y = row % valid.y;
       const std::int64_t z = row / valid.y;
-      std::copy_n(there->begin() + 8 * (y + 8 * z), valid.x, values.begin() + valid.x * row);
+      std::copy_n(there + 8 * (y + 8 * z), valid.x, values.begin() + valid.x * row);
     }
     texture_.upload(layout.first_voxel(page), valid, std::as_bytes(std::span(values)));
-  }
+  });
   shown_ = constraints;
 }
 

@@ -113,7 +113,7 @@ Status HostExecutor::set_constraints(std::shared_ptr<const Constraints> constrai
 // Takes a page to the limits of its constraints; `before` is phi two steps ago.
 void HostExecutor::limit(const PageInfo& info, const float* before, float* phi, RowMasks& masks,
                          PageResult& result) const {
-  if (!constrain(*info.constraints, phi)) return;
+  if (!constrain(info.constraints, phi)) return;
   masks = masks_of(phi, info.valid[0], info.padding, constants_.band);
   if (next_step_is_measured()) measure_again(info, before, phi, constants_.near, result);
 }

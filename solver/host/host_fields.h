@@ -31,7 +31,7 @@ struct PageInfo {
   bool asleep = false;              // quiet: not computed, both buffers are equal
   bool woke_neighbours = false;     // in this window
 
-  const Constraints::Page* constraints = nullptr;  // of its voxels; null: none
+  const Constraint* constraints = nullptr;  // of its voxels; null: none
 };
 
 // NOLINTNEXTLINE(bugprone-reserved-identifier, readability-identifier-naming): of what the compiler adds

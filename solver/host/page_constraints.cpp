@@ -5,10 +5,10 @@
 
 namespace tidemark::solver {
 
-bool constrain(const Constraints::Page& constraints, float* phi) {
+bool constrain(const Constraint* constraints, float* phi) {
   bool changed = false;
   for (int i = 0; i < kPageVoxels; ++i) {
-    const float held = limited(constraints[static_cast<std::size_t>(i)], phi[i]);
+    const float held = limited(constraints[i], phi[i]);
     changed = changed || held != phi[i];
     phi[i] = held;
   }

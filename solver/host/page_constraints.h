@@ -6,7 +6,7 @@
 namespace tidemark::solver {
 
 // Takes a page's values to their limits. Returns whether a value changed.
-bool constrain(const Constraints::Page& constraints, float* phi);
+bool constrain(const Constraint* constraints, float* phi);
 
 // The same measures of a page whose values were limited after its kernel had taken them: over all its voxels.
 // `before` is phi two steps ago.

@@ -89,11 +89,7 @@ Status PageEdits::restore(const Field& phi) {
 Status PageEdits::constrain() {
   const Constraints* constraints = contents_.constraints.get();
   if (constraints == nullptr || constraints->empty()) return {};
-  std::vector<std::int64_t> pages;
-  for (std::int64_t page = 0; page < pages_.memory().layout().page_count(); ++page) {
-    if (constraints->page(page) != nullptr) pages.push_back(page);
-  }
-  return constrain(pages);
+  return constrain(constraints->pages().stored_pages());
 }
 
 Status PageEdits::constrain(const std::vector<std::int64_t>& virtual_pages) {
@@ -101,15 +97,15 @@ Status PageEdits::constrain(const std::vector<std::int64_t>& virtual_pages) {
   if (constraints == nullptr || constraints->empty()) return {};
   const PagedMemory<3>& memory = pages_.memory();
   // A page that is not resident is constant.
-  const auto moves = [](const Constraints::Page& page, PhysicalPage constant) {
-    return std::any_of(page.begin(), page.end(), constant == kInsidePage ? is_upper : is_lower);
+  const auto moves = [](const Constraint* page, PhysicalPage constant) {
+    return std::any_of(page, page + Constraints::kPageVoxels, constant == kInsidePage ? is_upper : is_lower);
   };
   std::vector<std::int64_t> to_allocate;
   for (const std::int64_t page : virtual_pages) {
-    const Constraints::Page* there = constraints->page(page);
+    const Constraint* const there = constraints->page(page);
     const PhysicalPage physical = memory.physical(page);
     if (there == nullptr || !is_static_page(physical)) continue;
-    if (moves(*there, physical)) to_allocate.push_back(page);
+    if (moves(there, physical)) to_allocate.push_back(page);
   }
   TIDEMARK_TRY(memory.check_budget(static_cast<std::int64_t>(to_allocate.size())));
   for (const std::int64_t page : to_allocate) {
@@ -118,9 +114,9 @@ Status PageEdits::constrain(const std::vector<std::int64_t>& virtual_pages) {
   pages_.fill_new_pages();
   for (const std::int64_t virtual_page : virtual_pages) {
     const PhysicalPage page = memory.physical(virtual_page);
-    const Constraints::Page* there = constraints->page(virtual_page);
+    const Constraint* const there = constraints->page(virtual_page);
     if (is_static_page(page) || there == nullptr) continue;
-    if (!tidemark::solver::constrain(*there, pages_.phi(page))) continue;
+    if (!tidemark::solver::constrain(there, pages_.phi(page))) continue;
     pages_.refresh(page);
     quiet_.wake_around(page);
   }

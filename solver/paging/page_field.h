@@ -12,9 +12,9 @@ namespace tidemark::solver {
 // Numbers that a program knows when it is compiled, as the extent of std::span; any: when it runs.
 inline constexpr std::int64_t kAny = 0;
 
-// `buffers` times `values` T's a page, those of a page side by side. The static pages have theirs as well: they
-// stand for every page that is not resident, so nobody who reads needs a case for those. T must be usable when
-// it is all zero bytes.
+// `buffers` times `values` T's a page, those of a page side by side. The static pages have theirs as well:
+// they stand for every page that is not resident, so nobody who reads needs a case for those. T must be
+// usable when it is all zero bytes.
 template <class T, std::int64_t kValues = kAny, std::int64_t kBuffers = kAny>
 class PageField {
  public:

@@ -32,50 +32,50 @@ Constraint at_least(double phi) {
 }
 
 Constraints::Constraints(Index3 grid_size)
-    : layout_(grid_size, kDefaultPageShape), pages_(static_cast<std::size_t>(layout_.page_count())) {}
+    : layout_(grid_size, kDefaultPageShape), pages_(layout_.page_count(), kPageVoxels) {}
 
 Constraint Constraints::at(Index3 voxel) const {
   const VirtualAddress address = layout_.translate(voxel);
-  const Page* there = page(address.page);
-  return there == nullptr ? Constraint::none : (*there)[static_cast<std::size_t>(address.offset)];
+  const Constraint* const there = page(address.page);
+  return there == nullptr ? Constraint::none : there[address.offset];
 }
 
 std::int64_t Constraints::count(Constraint what) const {
   std::int64_t sum = 0;
-  for (const auto& page : pages_) {
-    if (page != nullptr) sum += std::count(page->begin(), page->end(), what);
+  for (const std::int64_t number : pages_.stored_pages()) {
+    sum += std::count(page(number), page(number) + kPageVoxels, what);
   }
   return sum;
 }
 
-void Constraints::set_page(std::int64_t virtual_page, std::shared_ptr<const Page> page) {
-  std::shared_ptr<const Page>& held = pages_[static_cast<std::size_t>(virtual_page)];
-  if (held != nullptr) --constrained_pages_;
-  held = std::move(page);
-  if (held != nullptr) ++constrained_pages_;
+void Constraints::set_page(std::int64_t virtual_page, const Page& page) {
+  if (std::all_of(page.begin(), page.end(), [](Constraint c) { return c == Constraint::none; })) {
+    pages_.set_constant(virtual_page, Pages::Kind::outside);
+  } else {
+    std::copy(page.begin(), page.end(), pages_.store(virtual_page));
+  }
 }
 
-void Constraints::replace(std::int64_t virtual_page, const Page& page) {
-  const bool is_free =
-      std::all_of(page.begin(), page.end(), [](Constraint c) { return c == Constraint::none; });
-  set_page(virtual_page, is_free ? nullptr : std::make_shared<const Page>(page));
+Constraints::Page Constraints::copy_of(std::int64_t virtual_page) const {
+  Page copy{};
+  if (const Constraint* const there = page(virtual_page); there != nullptr)
+    std::copy_n(there, kPageVoxels, copy.begin());
+  return copy;
 }
 
 Constraints Constraints::over(const Constraints& other) const {
   Constraints joined = other;
-  for (std::int64_t number = 0; number < layout_.page_count(); ++number) {
-    const std::shared_ptr<const Page>& own = pages_[static_cast<std::size_t>(number)];
-    const Page* below = other.page(number);
-    if (own == nullptr) continue;
+  for (const std::int64_t number : pages_.stored_pages()) {
+    const Constraint* const below = other.page(number);
     if (below == nullptr) {
-      joined.set_page(number, own);
+      joined.pages_.share(number, pages_);
       continue;
     }
-    Page page = *own;
+    Page page = copy_of(number);
     for (std::size_t i = 0; i < page.size(); ++i) {
-      if (page[i] == Constraint::none) page[i] = (*below)[i];
+      if (page[i] == Constraint::none) page[i] = below[i];
     }
-    joined.replace(number, page);
+    joined.set_page(number, page);
   }
   return joined;
 }
@@ -87,9 +87,7 @@ void Constraints::set(const std::function<bool(Index3)>& chosen, Index3 first, I
     for (std::int64_t py = first_page.y; py <= last_page.y; ++py) {
       for (std::int64_t px = first_page.x; px <= last_page.x; ++px) {
         const std::int64_t number = layout_.page_number({px, py, pz});
-        const Page* before = page(number);
-        Page values{};
-        if (before != nullptr) values = *before;
+        Page values = copy_of(number);
         const Index3 start = layout_.first_voxel(number);
         const Index3 valid = layout_.valid_shape(number);
         bool changed = false;
@@ -103,7 +101,7 @@ void Constraints::set(const std::function<bool(Index3)>& chosen, Index3 first, I
             }
           }
         }
-        if (changed) replace(number, values);
+        if (changed) set_page(number, values);
       }
     }
   }
@@ -131,11 +129,9 @@ void Constraints::set(const Geometry& geometry, const Sphere& sphere, Constraint
 void Constraints::set(const std::vector<Index3>& voxels, Constraint what) {
   for (const Index3& voxel : voxels) {
     const VirtualAddress address = layout_.translate(voxel);
-    const Page* before = page(address.page);
-    Page values{};
-    if (before != nullptr) values = *before;
+    Page values = copy_of(address.page);
     values[static_cast<std::size_t>(address.offset)] = what;
-    replace(address.page, values);
+    set_page(address.page, values);
   }
 }
 
@@ -162,22 +158,24 @@ void constrain(Field& phi, const Constraints& constraints) {
     }
     values[address.offset] = limited(what, values[address.offset]);
   };
-  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-    const Constraints::Page* there = constraints.page(page);
-    if (there == nullptr) continue;
+  for (const std::int64_t page : constraints.pages().stored_pages()) {
     const Index3 first = layout.first_voxel(page);
     for (std::int64_t i = 0; i < Constraints::kPageVoxels; ++i) {
-      const Constraint what = (*there)[static_cast<std::size_t>(i)];
+      const Constraint what = constraints.page(page)[i];
       if (what != Constraint::none) limit(first + Index3(i % 8, i / 8 % 8, i / 64), what);
     }
   }
 }
 
 bool Constraints::operator==(const Constraints& other) const {
-  if (layout_ != other.layout_ || constrained_pages_ != other.constrained_pages_) return false;
-  return std::equal(pages_.begin(), pages_.end(), other.pages_.begin(), [](const auto& a, const auto& b) {
-    return a == b || (a != nullptr && b != nullptr && *a == *b);
+  if (layout_ != other.layout_ || pages_.stored() != other.pages_.stored()) return false;
+  bool same = true;
+  Pages::for_each_difference(pages_, other.pages_, [&](std::int64_t number) {
+    const Constraint* const a = page(number);
+    const Constraint* const b = other.page(number);
+    same = same && a != nullptr && b != nullptr && std::equal(a, a + kPageVoxels, b);
   });
+  return same;
 }
 
 }  // namespace tidemark::solver

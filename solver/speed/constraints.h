@@ -5,12 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "core/volume.h"
 #include "solver/field.h"
 #include "solver/paging/page_layout.h"
+#include "solver/paging/shared_pages.h"
 #include "solver/sphere.h"
 
 namespace tidemark::solver {
@@ -57,23 +57,25 @@ template <class Real>
   return is_upper(constraint) ? std::min(phi, limit) : std::max(phi, limit);
 }
 
-// Kept by pages of 8^3 voxels: memory follows what is constrained, not the volume.
+// Kept by pages of 8^3 voxels, which copies share: memory follows what is constrained, not the volume.
 class Constraints {
  public:
   static constexpr int kPageVoxels = 512;
   // The constraints of a page's voxels, x fastest.
   using Page = std::array<Constraint, kPageVoxels>;
+  using Pages = BasicSharedPages<Constraint>;
 
   Constraints() = default;
   explicit Constraints(Index3 grid_size);
 
   [[nodiscard]] const PageLayout& layout() const { return layout_; }
   [[nodiscard]] Constraint at(Index3 voxel) const;
-  // Null: the page has none. Pages are shared with the copies of this object, and never change.
-  [[nodiscard]] const Page* page(std::int64_t virtual_page) const {
-    return pages_[static_cast<std::size_t>(virtual_page)].get();
+  // Those of a page's voxels, kPageVoxels of them, x fastest; null: it has none.
+  [[nodiscard]] const Constraint* page(std::int64_t virtual_page) const {
+    return pages_.values(virtual_page);
   }
-  [[nodiscard]] bool empty() const { return constrained_pages_ == 0; }
+  [[nodiscard]] const Pages& pages() const { return pages_; }
+  [[nodiscard]] bool empty() const { return pages_.stored() == 0; }
   [[nodiscard]] std::int64_t count(Constraint what) const;  // voxels
 
   // Sets the voxels of a mask on the same grid (not 0), those whose centres are within a sphere, or those of
@@ -81,20 +83,20 @@ class Constraints {
   void set(const Mask& mask, Constraint what);
   void set(const Geometry& geometry, const Sphere& sphere, Constraint what);
   void set(const std::vector<Index3>& voxels, Constraint what);  // on the grid
-  // Null: the page has none.
-  void set_page(std::int64_t virtual_page, std::shared_ptr<const Page> page);
+  void set_page(std::int64_t virtual_page, const Page& page);
+  // The page as another page is.
+  void repeat_page(std::int64_t virtual_page, std::int64_t like) { pages_.repeat(virtual_page, like); }
   // With those of `other`, on the same grid, where this has none.
   [[nodiscard]] Constraints over(const Constraints& other) const;
 
   bool operator==(const Constraints& other) const;
 
  private:
-  void replace(std::int64_t virtual_page, const Page& page);
+  [[nodiscard]] Page copy_of(std::int64_t virtual_page) const;
   void set(const std::function<bool(Index3)>& chosen, Index3 first, Index3 last, Constraint what);
 
   PageLayout layout_;
-  std::vector<std::shared_ptr<const Page>> pages_;
-  std::int64_t constrained_pages_ = 0;
+  Pages pages_;
 };
 
 // Takes phi to the limits of the constraints on its grid; pages become resident as they need to.

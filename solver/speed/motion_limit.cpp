@@ -36,27 +36,23 @@ Constraint limit_at(double distance, double within) {
 std::shared_ptr<const Constraints> constraints_of(const Field& distance, double within) {
   auto constraints = std::make_shared<Constraints>(distance.geometry.size);
   const PageLayout& layout = distance.layout;
-  const auto even = [](Constraint what) {
-    return std::make_shared<const Page>(page_of(kDefaultPageShape, [what](std::int64_t) { return what; }));
-  };
-  const auto far = even(Constraint::wall);
-  const auto deep = even(Constraint::anchor);
+  std::int64_t even_page[2] = {-1, -1};  // whose voxels are all walls, all anchors
   for (std::int64_t number = 0; number < layout.page_count(); ++number) {
     const float* const values = distance.pages.values(number);
     const bool is_outside = distance.pages.kind(number) == Field::Kind::outside;
     const Index3 valid = layout.valid_shape(number);
-    if (values == nullptr && valid == kDefaultPageShape) {
-      constraints->set_page(number, is_outside ? far : deep);
+    std::int64_t& even = even_page[is_outside ? 0 : 1];
+    const bool is_even = values == nullptr && valid == kDefaultPageShape;
+    if (is_even && even >= 0) {
+      constraints->repeat_page(number, even);
       continue;
     }
     const auto at = [&](std::int64_t i) {
       if (values == nullptr) return is_outside ? Constraint::wall : Constraint::anchor;
       return limit_at(static_cast<double>(values[i]), within);
     };
-    auto page = std::make_shared<const Page>(page_of(valid, at));
-    const bool is_free =
-        std::all_of(page->begin(), page->end(), [](Constraint c) { return c == Constraint::none; });
-    if (!is_free) constraints->set_page(number, std::move(page));
+    constraints->set_page(number, page_of(valid, at));
+    if (is_even) even = number;
   }
   return constraints;
 }

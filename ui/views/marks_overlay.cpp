@@ -60,13 +60,11 @@ std::vector<std::int64_t> constrained(const solver::Constraints& constraints, co
                                       const engine::SliceSlab& slab, solver::Constraint what) {
   const solver::PageLayout& layout = constraints.layout();
   std::vector<std::int64_t> voxels;
-  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
-    const auto* content = constraints.page(page);
-    if (!content) continue;
+  for (const std::int64_t page : constraints.pages().stored_pages()) {
     const Index3 first = layout.first_voxel(page);
     if (!slab.meets(first, Index3(8))) continue;
     for (int place = 0; place < solver::Constraints::kPageVoxels; ++place) {
-      if ((*content)[static_cast<std::size_t>(place)] != what) continue;
+      if (constraints.page(page)[place] != what) continue;
       const Index3 voxel = first + Index3(place % 8, place / 8 % 8, place / 64);
       if (geometry.contains(voxel) && slab.contains(voxel)) voxels.push_back(geometry.offset(voxel));
     }
