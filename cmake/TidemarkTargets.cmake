@@ -72,8 +72,9 @@ endfunction()
 
 # A test program: one for a folder, of as many test classes as its folder has (tests/support/test_program.h).
 #   tidemark_test_program(name [WINDOWS] [MAIN lib] [HEADERS target] [RUNS program...] [SOURCES helper.cpp...] LINKS lib...)
-# WINDOWS: it runs on a screen of its own that nobody sees. RUNS: it starts these programs of ours. MAIN: who has main(); HEADERS: whose precompiled headers it
-# takes over. Both have a suitable default; HEADERS NONE is for programs that see Qt Gui without Qt's widgets.
+# WINDOWS: it runs on a screen of its own that nobody sees. RUNS: it starts these programs of ours. MAIN: who has main();
+# HEADERS: whose precompiled headers it takes over. Both have a suitable default; HEADERS NONE is for programs that see
+# Qt Gui without Qt's widgets.
 function(tidemark_test_program name)
   cmake_parse_arguments(arg "WINDOWS" "MAIN;HEADERS" "RUNS;SOURCES;LINKS" ${ARGN})
   if(NOT arg_MAIN)

@@ -57,8 +57,8 @@ std::int64_t bytes_of(const Drive& drive) {
   std::size_t bytes = 0;
   if (drive.strokes)
     bytes += (drive.strokes->inside.size() + drive.strokes->outside.size()) * sizeof(std::int64_t);
-  // Pages are shared with the constraints before.
-  if (drive.constraints) bytes += static_cast<std::size_t>(drive.constraints->pages().copy_bytes());
+  // Most pages are shared with the constraints before: this is the most that it can be.
+  if (drive.constraints) bytes += static_cast<std::size_t>(drive.constraints->pages().bytes());
   return static_cast<std::int64_t>(bytes);
 }
 

@@ -1,5 +1,6 @@
 #include "gpu/device.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "gpu/gl.h"
@@ -62,7 +63,8 @@ Status Device::start(const DeviceOptions& options) {
   TIDEMARK_TRY(make_current());
   capabilities_ = query_capabilities();
   if (options.as_gpu) capabilities_.software = false;
-  if (options.largest_texture > 0) capabilities_.largest_texture = options.largest_texture;
+  if (options.largest_texture > 0)
+    capabilities_.largest_texture = std::min(capabilities_.largest_texture, options.largest_texture);
   const bool wants_compute = options.version == GlVersion::gl45;
   if (!(wants_compute ? capabilities_.at_least(4, 5) : capabilities_.at_least(3, 3))) {
     return fail(ErrorKind::capability, "OpenGL {} is needed; {} offers {}.{}", wants_compute ? "4.5" : "3.3",

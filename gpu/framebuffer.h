@@ -27,7 +27,7 @@ class Framebuffer {
   void copy_to(const TexelRect& from, const TextureLayers& to, std::int64_t layer) const;
 
  private:
-  // Made of what is attached, which is so large.
+  // The framebuffer of textures of that size that are attached already.
   static Result<Framebuffer> finish(Device& device, FramebufferHandle handle, std::size_t colours,
                                     std::int64_t width, std::int64_t height, std::string_view label);
 

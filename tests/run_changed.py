@@ -5,7 +5,7 @@
 
 A test's result is the same while these are: its command and environment; the bits of the programs that it runs, and what
 else its REQUIRED_FILES are; every file of the project that is not C++, and for a script that too; the studies; the
-packages of the machine. What passed is kept beside the build, so that a fresh build runs everything. --all runs
+processor and the packages of the machine. What passed is kept beside the build, so that a fresh build runs everything. --all runs
 everything in any case.
 """
 
@@ -18,8 +18,11 @@ import sys
 import xml.etree.ElementTree
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
-NOT_OF_IT = {".git", "build", "__pycache__"}
+NOT_OF_IT = {"build", "out", "__pycache__"}
 CPP = {".cpp", ".h"}
+# What is another in each terminal and each session.
+VOLATILE = {"_", "COLUMNS", "DISPLAY", "INVOCATION_ID", "JOURNAL_STREAM", "LINES", "OLDPWD", "PWD", "SHLVL", "TERM",
+            "WINDOWID", "XAUTHORITY"}
 
 
 def output(*command):
@@ -29,9 +32,15 @@ def output(*command):
 def files_below(folder):
     found = []
     for place, folders, names in os.walk(folder):
-        folders[:] = [name for name in folders if name not in NOT_OF_IT]
-        found += [pathlib.Path(place, name) for name in names]
+        folders[:] = [name for name in folders if name not in NOT_OF_IT and not name.startswith(".")]
+        found += [pathlib.Path(place, name) for name in names if name != "compile_commands.json"]
     return found
+
+
+def processor():
+    """What it is and can do: vectorised code is chosen by it."""
+    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    return sorted({line for line in lines if line.startswith(("model name", "flags", "Features"))})
 
 
 def digest(*parts):
@@ -59,7 +68,7 @@ def studies():
     folder = pathlib.Path(os.environ.get("TIDEMARK_STUDIES", PROJECT.parent / "shared" / "data"))
     listed = []
     for path in sorted(files_below(folder)):
-        status = path.stat()
+        status = path.lstat()
         listed.append(f"{path} {status.st_size} {status.st_mtime_ns}")
     return digest(*listed)
 
@@ -72,18 +81,24 @@ class Inputs:
         self.files = Files()
         project = files_below(PROJECT)
         self.cpp = self.files.of_all(path for path in project if path.suffix in CPP)
-        variables = sorted(f"{name}={value}" for name, value in os.environ.items()
-                           if name.startswith(("TIDEMARK_", "QT_", "LC_", "LANG")))
+        variables = sorted(f"{name}={value}" for name, value in os.environ.items() if name not in VOLATILE)
         self.common = digest(self.files.of_all(path for path in project if path.suffix not in CPP), studies(),
-                             output("dpkg-query", "-W").decode(), *variables)
+                             output("dpkg-query", "-W").decode(), *processor(), *variables)
 
     def of(self, test):
         properties = {one["name"]: one["value"] for one in test.get("properties", [])}
-        command = test["command"]
+        command = test.get("command", [])  # none: its program has not been built
         named = [pathlib.Path(word) for word in [*command, *properties.get("REQUIRED_FILES", [])]]
         is_program = any(path.parent == self.programs for path in named)
         return digest(self.common, "" if is_program else self.cpp, *command, *properties.get("ENVIRONMENT", []),
                       *(self.files.of_all(files_below(path) if path.is_dir() else [path]) for path in named))
+
+
+def passed_before(kept):
+    try:
+        return json.loads(kept.read_text())
+    except (FileNotFoundError, json.JSONDecodeError):
+        return {}
 
 
 def passed_in(report):
@@ -98,7 +113,7 @@ def main(preset, options):
     ctest = ["ctest", "--preset", preset]
     wanted = json.loads(output(*ctest, *options, "--show-only=json-v1"))["tests"]
     kept = build / "passed_tests.json"
-    passed = json.loads(kept.read_text()) if kept.exists() else {}
+    passed = passed_before(kept)
     inputs = Inputs(build)
     now = {test["name"]: inputs.of(test) for test in wanted}
     to_run = [name for name in now if run_all or passed.get(name) != now[name]]
@@ -107,7 +122,7 @@ def main(preset, options):
               "run again", flush=True)
     if not to_run:
         return 0
-    numbers = [str(number) for number, name in enumerate(now, 1) if name in set(to_run)]
+    numbers = [str(number) for number, test in enumerate(wanted, 1) if test["name"] in set(to_run)]
     report = build / "test_report.xml"
     report.unlink(missing_ok=True)
     result = subprocess.run([*ctest, *options, "--output-junit", str(report),
@@ -118,7 +133,9 @@ def main(preset, options):
             passed.pop(name, None)
             if name in good:
                 passed[name] = now[name]
-        kept.write_text(json.dumps(passed, indent=1, sort_keys=True))
+        written = kept.with_suffix(".new")
+        written.write_text(json.dumps(passed, indent=1, sort_keys=True))
+        written.replace(kept)
     return result.returncode
 
 

@@ -8,7 +8,8 @@
 namespace tidemark::renderer {
 namespace {
 
-// Llvmpipe compiles anew for textures whose height is a power of two: G never has such a one, while it grows.
+// Llvmpipe compiles anew for textures whose height is a power of two: G has no such one before its layer is
+// full.
 std::int64_t without_power_of_two(const solver::PackedLayout& layout, std::int64_t capacity) {
   const auto fits_one_layer = [&](std::int64_t pages) { return layout.texture_size(pages).z == 1; };
   while (std::has_single_bit(static_cast<std::uint64_t>(layout.texture_size(capacity).y)) &&
@@ -99,8 +100,9 @@ Status PhiPicture::update(gpu::Device& device, const solver::Field& phi,
   shown_.reset();
   if (pages_.table().capacity() > field_.capacity()) {
     // By a quarter more than needed: a growing surface does not copy G with every picture.
-    const std::int64_t wanted = pages_.table().capacity() + pages_.table().capacity() / 4;
-    TIDEMARK_TRY(field_.grow(device, without_power_of_two(layout(), wanted)));
+    const std::int64_t needed = pages_.table().capacity();
+    TIDEMARK_TRY(
+        field_.grow(device, without_power_of_two(layout(), layout().ample(needed, needed + needed / 4))));
   }
   for (std::size_t first = 0; first < changes.size(); first += static_cast<std::size_t>(most_staged_)) {
     const std::size_t count = std::min(changes.size() - first, static_cast<std::size_t>(most_staged_));

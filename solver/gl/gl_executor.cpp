@@ -31,7 +31,8 @@ Result<std::int64_t> GlExecutor::capacity_for(
   const auto bytes = [&](std::int64_t pages) { return with_textures(state_bytes(pages)); };
   const std::int64_t least = layout_.rounded_up(needed);
   const std::int64_t all = layout_.layout().page_count() + kFirstPage;  // of the whole volume
-  const std::int64_t ample = layout_.rounded_up(std::min(needed + std::max(needed / 5, kFewestSpare), all));
+  const std::int64_t ample =
+      layout_.ample(needed, std::min(needed + std::max(needed / 5, kFewestSpare), all));
   if (ample > least && ample <= layout_.largest_capacity() && bytes(ample) <= options_.memory_budget_bytes) {
     return ample;
   }

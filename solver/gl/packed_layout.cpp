@@ -36,6 +36,11 @@ std::int64_t PackedLayout::rounded_up(std::int64_t capacity) const {
   return (capacity + unit - 1) / unit * unit;
 }
 
+std::int64_t PackedLayout::ample(std::int64_t needed, std::int64_t wanted) const {
+  const std::int64_t layers = (needed + pages_per_layer() - 1) / pages_per_layer();
+  return rounded_up(std::clamp(wanted, needed, std::max(needed, layers * pages_per_layer())));
+}
+
 Index3 PackedLayout::texture_size(std::int64_t capacity) const {
   const std::int64_t rows = rounded_up(capacity) / pages_per_row_;
   const std::int64_t layers = (rows + rows_per_layer_ - 1) / rows_per_layer_;

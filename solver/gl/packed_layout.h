@@ -33,6 +33,8 @@ class PackedLayout {
   // `capacity` rounded up to what G grows by, and the layers that hold so many pages: width and height in
   // texels, and how many.
   [[nodiscard]] std::int64_t rounded_up(std::int64_t capacity) const;
+  // Room for `needed` pages and for as many of those that may follow as have room in the same layers.
+  [[nodiscard]] std::int64_t ample(std::int64_t needed, std::int64_t wanted) const;
   [[nodiscard]] Index3 texture_size(std::int64_t capacity) const;
 
   // Copies a page's voxels (i fastest) to its tile, whose rows are `row_length` values long, and back.

@@ -123,7 +123,7 @@ void HostExecutor::limit(const PageInfo& info, const float* before, float* phi, 
 std::int64_t HostExecutor::update_page(std::size_t index, RowWork work, const PagePrefetch& ahead,
                                        Tile& tile) {
   const PhysicalPage page = quiet_.active()[index];
-  const HostFields& fields = pages_.fields();
+  HostFields& fields = pages_.fields();
   PageInfo& info = fields.info(page);
   const int next = 1 - pages_.current();
   const Rows rows = whole_vectors(work.compute, kernels_.rows_per_vector);

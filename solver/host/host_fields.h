@@ -54,9 +54,11 @@ class HostFields {
   }
   void keep_advection(bool wanted);
 
-  [[nodiscard]] PageInfo& info(PhysicalPage page) const { return infos_[page]; }
+  [[nodiscard]] PageInfo& info(PhysicalPage page) { return infos_[page]; }
+  [[nodiscard]] const PageInfo& info(PhysicalPage page) const { return infos_[page]; }
   // Apart by buffer: while a page writes the next buffer's, its neighbours read the current one's.
-  [[nodiscard]] RowMasks& masks(int buffer, PhysicalPage page) const { return masks_[buffer][page]; }
+  [[nodiscard]] RowMasks& masks(int buffer, PhysicalPage page) { return masks_[buffer][page]; }
+  [[nodiscard]] const RowMasks& masks(int buffer, PhysicalPage page) const { return masks_[buffer][page]; }
 
   // Bytes that what drives the surface takes in a page.
   [[nodiscard]] std::int64_t drive_bytes() const;

@@ -44,7 +44,7 @@ void QuietPages::wake_all() {
 }
 
 void QuietPages::put_to_sleep(PhysicalPage page) {
-  const HostFields& fields = pages_.fields();
+  HostFields& fields = pages_.fields();
   PageInfo& info = fields.info(page);
   info.asleep = true;
   ++count_;

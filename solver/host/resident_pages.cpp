@@ -17,6 +17,7 @@ float ResidentPages::constant(bool inside) const {
 
 void ResidentPages::clear() {
   memory_ = PagedMemory<3>(PageLayout(contents_.geometry.size, kDefaultPageShape), memory_budget_);
+  memory_.announce_changes();
   fields_ = HostFields(memory_);
   fields_.keep_advection(contents_.speed->advects());
   for (const PhysicalPage page : {kOutsidePage, kInsidePage}) {

@@ -24,10 +24,14 @@ class ResidentPages {
   };
   // Everything is outside at first. What it is made from outlives it.
   ResidentPages(const Contents& contents, ThreadPool& threads, std::int64_t memory_budget);
+  ResidentPages(const ResidentPages&) = delete;  // its fields know its memory
+  ResidentPages& operator=(const ResidentPages&) = delete;
+  ~ResidentPages() = default;
   void clear();
 
   [[nodiscard]] const PagedMemory<3>& memory() const { return memory_; }
   [[nodiscard]] const PageTable& table() const { return memory_.table(); }
+  [[nodiscard]] HostFields& fields() { return fields_; }
   [[nodiscard]] const HostFields& fields() const { return fields_; }
 
   // The buffer that holds phi. A step writes the other one.

@@ -8,7 +8,6 @@ namespace tidemark::solver {
 
 class ChangedPages {
  public:
-  ChangedPages() = default;
   // Of a table of so many virtual pages, none of them changed.
   explicit ChangedPages(std::int64_t pages) : is_listed_(static_cast<std::size_t>(pages), false) {}
 

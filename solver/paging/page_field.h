@@ -35,6 +35,7 @@ class PageField {
   // The only value of a page, or its first.
   [[nodiscard]] T& operator[](PhysicalPage page) const { return *values(page); }
 
+  // All values of a page, in all buffers.
   void fill(PhysicalPage page, T value) const { std::fill_n(values(page), stride(), value); }
 
  private:

@@ -1,16 +1,18 @@
 #include "solver/paging/paged_memory.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tidemark::solver {
 
 template <int kDimensions>
 PagedMemory<kDimensions>::PagedMemory(const Layout& layout, std::int64_t budget)
-    : layout_(layout), budget_(budget), table_(layout.page_count()), changed_(layout.page_count()) {}
+    : layout_(layout), budget_(budget), table_(layout.page_count()) {}
 
 template <int kDimensions>
 std::int64_t PagedMemory<kDimensions>::most_pages(std::int64_t bytes_a_page) const {
-  return std::min(budget_ / bytes_a_page + 1, layout_.page_count()) + kFirstPage;
+  const std::int64_t affordable = std::min(budget_ / bytes_a_page, layout_.page_count()) + 1 + kFirstPage;
+  return std::max<std::int64_t>(affordable, table_.capacity());
 }
 
 template <int kDimensions>
@@ -21,7 +23,7 @@ Status PagedMemory<kDimensions>::check_budget(std::int64_t more_pages) const {
   // included.
   constexpr std::int64_t kListBytesPerPage = 64;
   const std::int64_t bytes = capacity * (page_bytes_ + kListBytesPerPage) + table_.bytes();
-  if (bytes <= budget_) return {};
+  if (bytes <= budget_ && capacity <= std::numeric_limits<PhysicalPage>::max()) return {};
   return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
               capacity, bytes >> 20, budget_ >> 20);
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "core/result.h"
 #include "solver/paging/changed_pages.h"
@@ -86,12 +87,16 @@ class PagedMemory {
     }
   }
 
-  // Pages announce their changes: those that came or went do so by themselves, and what writes into a field
-  // says so. Calls visit(virtual page) for each of them since the last call, in any order.
-  void note_change(std::int64_t page) const { changed_.add(page); }
+  // Pages announce their changes from now on: those that come or go do so by themselves, and what writes into
+  // a field says so.
+  void announce_changes() { changed_ = ChangedPages(layout_.page_count()); }
+  void note_change(std::int64_t page) const {
+    if (changed_) changed_->add(page);
+  }
+  // Calls visit(virtual page) for each of them since the last call, in any order.
   template <class Visit>
   void take_changes(const Visit& visit) const {
-    changed_.take(visit);
+    if (changed_) changed_->take(visit);
   }
 
   // Of the fields, of the tables and lists, and the most pages that were resident at once.
@@ -114,7 +119,7 @@ class PagedMemory {
   std::int64_t page_bytes_ = 0;  // of all fields
   PageTable table_;
   std::int64_t peak_resident_ = 0;
-  mutable ChangedPages changed_;
+  mutable std::optional<ChangedPages> changed_;  // unset: nobody asks
 };
 
 extern template class PagedMemory<2>;

@@ -20,7 +20,6 @@ class ReservedArray {
       : values_(static_cast<T*>(reserve_address_space(capacity * sizeof(T))), Release{capacity * sizeof(T)}) {
   }
 
-  T& operator[](std::size_t index) const { return values_.get()[index]; }
   [[nodiscard]] T* data() const { return values_.get(); }
 
  private:

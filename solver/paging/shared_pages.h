@@ -55,10 +55,6 @@ class BasicSharedPages {
 
   // Bytes of the table and of all stored pages, as if nothing were shared.
   [[nodiscard]] std::int64_t bytes() const;
-  // Bytes that a copy takes while it shares everything.
-  [[nodiscard]] std::int64_t copy_bytes() const {
-    return static_cast<std::int64_t>(chunks_.size() * sizeof(chunks_.front()));
-  }
 
   // Calls visit(page) for the pages, in ascending order, that do not lie at the same place in both, which
   // have as many pages. Takes time by what they do not share.

@@ -35,8 +35,8 @@ struct PassRecord {
   PageLayout layout;
   std::int64_t page = 0;  // VPN
   PhysicalPage physical = kOutsidePage;
-  glm::i64vec2 address{0};            // PPA: the page's first texel in G, its layers one below the other
-  glm::i64vec2 memory_size{0};        // of G, texels
+  glm::i64vec2 address{0};      // PPA: the page's first texel in G, its layers one after the other along y
+  glm::i64vec2 memory_size{0};  // of G, texels
   std::vector<PhysicalPage> slice;    // the page table's entries of the page's slice of V_P
   std::vector<std::int64_t> inverse;  // the inverse page table: the virtual pages of G_P; -1: free or static
   double band = 0.0;

@@ -53,7 +53,8 @@ class StreamExecutor final : public GlExecutor {
     bool asleep = false;
     bool woke_neighbours = false;  // in this window
   };
-  [[nodiscard]] PageInfo& info(PhysicalPage page) const { return infos_[page]; }
+  PageInfo& info(PhysicalPage page) { return infos_[page]; }
+  [[nodiscard]] const PageInfo& info(PhysicalPage page) const { return infos_[page]; }
 
   // Steps (stream_executor.cpp).
   Status evaluate_speed();

@@ -98,12 +98,17 @@ class PhiPictureTest : public QObject {
     QTest::newRow("compute") << static_cast<int>(solver::ExecutorKind::compute) << 0;
     QTest::newRow("compute, in layers") << static_cast<int>(solver::ExecutorKind::compute) << 256;
     QTest::newRow("stream") << static_cast<int>(solver::ExecutorKind::stream) << 0;
+    QTest::newRow("stream, in layers") << static_cast<int>(solver::ExecutorKind::stream) << 512;
   }
   void an_executors_own_memory_gives_the_same_picture() {
     QFETCH(int, kind);
     QFETCH(int, largest_texture);
-    const Geometry geometry = grid({64, 64, 48});
-    const Scene scene = ball_scene(geometry, 22.0);
+    // Pages of 16 x 16 x 1, of which a layer has 16 x 16 or 32 x 32, and a ball that needs more.
+    const bool is_layered = largest_texture > 0;
+    const Index3 page_shape = is_layered ? Index3(16, 16, 1) : solver::kDefaultPageShape;
+    const double radius_mm = is_layered ? 0.09 * largest_texture : 22.0;
+    const Geometry geometry = grid(is_layered ? Index3(2.0 * radius_mm + 20.0) : Index3(64, 64, 48));
+    const Scene scene = ball_scene(geometry, radius_mm);
     gpu::DeviceOptions wanted;
     wanted.debug = true;
     wanted.largest_texture = largest_texture;
@@ -114,12 +119,12 @@ class PhiPictureTest : public QObject {
     parameters.range = 50.0;
     solver::ExecutorOptions options;
     options.device = *device;
-    if (largest_texture > 0) options.page_shape = {16, 16, 1};  // 16 x 16 pages a layer
+    options.page_shape = page_shape;
     auto executor =
         solver::make_executor(static_cast<solver::ExecutorKind>(kind), scene.source, parameters, options);
     QCOMPARE(failure(executor), QString());
-    const double radius_mm = largest_texture > 0 ? 20.0 : 5.0;
-    QCOMPARE(failure((*executor)->paint({scene.middle, radius_mm}, solver::Brush::add)), QString());
+    const double seed_mm = is_layered ? radius_mm - 2.0 : 5.0;
+    QCOMPARE(failure((*executor)->paint({scene.middle, seed_mm}, solver::Brush::add)), QString());
     const solver::PageLayout layout = (*executor)->snapshot()->layout;
     auto of_copy = renderer::GlRenderer::create(*device, scene.source, layout);
     auto of_memory = renderer::GlRenderer::create(*device, scene.source, layout);
@@ -129,7 +134,7 @@ class PhiPictureTest : public QObject {
     pages.content = renderer::SliceContent::pages;
     pages.position_mm = scene.middle;
     for (int run = 0; run < 4; ++run) {
-      QCOMPARE(failure((*executor)->advance({20})), QString());
+      QCOMPARE(failure((*executor)->advance({is_layered ? 5 : 20})), QString());
       const auto quiet = (*executor)->quiet_pages();
       const auto looks = (*of_memory)->look_at(**executor, *quiet);
       QCOMPARE(failure(looks), QString());
@@ -142,7 +147,10 @@ class PhiPictureTest : public QObject {
     }
     solver::PackedView view;
     QVERIFY((*executor)->packed_view(view));
-    QCOMPARE(view.phi->layers() > 1, largest_texture > 0);
+    QCOMPARE(view.phi->layers() > 1, is_layered);
+    const solver::PackedLayout packed(layout, (*device)->capabilities());
+    QCOMPARE(packed.texture_size((*executor)->memory().resident_pages).z > 1,
+             is_layered);  // of the copy, too
     QCOMPARE((*device)->severe_messages(), 0);
   }
 

@@ -1,5 +1,6 @@
 // Virtual memory: address translation, tables and fields for any page shape in 2, 3 and 4 dimensions, and
 // what is checked of a level set.
+#include <map>
 #include <random>
 #include <set>
 
@@ -74,7 +75,9 @@ void check_memory(solver::Index<kDimensions> size, solver::Index<kDimensions> sh
   std::vector<float> wanted_phi[2];
   for (auto& buffer : wanted_phi) buffer.assign(static_cast<std::size_t>(voxels), -2.5F);
   std::vector<std::int16_t> wanted_speed(static_cast<std::size_t>(voxels), -1);
+  std::map<std::int64_t, int> wanted_steps;  // of the resident pages
   std::set<std::int64_t> changed;
+  memory.announce_changes();
   std::mt19937 random(3);
   const auto fill_wanted = [&](std::int64_t page, bool inside) {
     for (std::int64_t number = 0; number < voxels; ++number) {
@@ -92,7 +95,9 @@ void check_memory(solver::Index<kDimensions> size, solver::Index<kDimensions> sh
           speed.values(at.page)[at.offset] != wanted_speed[i])
         return false;
     }
-    return true;
+    return std::all_of(wanted_steps.begin(), wanted_steps.end(), [&](const auto& wanted) {
+      return steps[memory.physical(wanted.first)] == wanted.second;
+    });
   };
   for (int change = 0; change < 1500; ++change) {
     const std::int64_t number = static_cast<std::int64_t>(random()) % voxels;
@@ -106,10 +111,12 @@ void check_memory(solver::Index<kDimensions> size, solver::Index<kDimensions> sh
       fill_wanted(page, memory.physical(page) == solver::kInsidePage);
     } else if (!solver::is_static_page(before) && random() % 4 == 0) {
       memory.release(page, random() % 2 == 0);
+      wanted_steps.erase(page);
       fill_wanted(page, memory.physical(page) == solver::kInsidePage);
     } else {
       if (solver::is_static_page(before)) {
         const solver::PhysicalPage made = memory.make_resident(page).value();
+        QVERIFY(made >= solver::kFirstPage);
         QCOMPARE(memory.virtual_page(made), page);
         phi.fill(made, *phi.values(before));
         speed.fill(made, *speed.values(before));
@@ -121,9 +128,10 @@ void check_memory(solver::Index<kDimensions> size, solver::Index<kDimensions> sh
       phi.values(at.page, buffer)[at.offset] = wanted_phi[buffer][i] = static_cast<float>(change);
       speed.values(at.page)[at.offset] = wanted_speed[i] = static_cast<std::int16_t>(change);
       ++steps[at.page];
+      ++wanted_steps[page];
       memory.note_change(page);
     }
-    if (change % 250 != 0) continue;
+    if ((change + 1) % 250 != 0) continue;
     QVERIFY(everything_is_there());
     QCOMPARE(failure(memory.table().validate()), QString());
     std::set<std::int64_t> announced;

@@ -1,5 +1,8 @@
 // The record of a page's step is what the step does, and changes nothing.
+#include <algorithm>
 #include <glm/common.hpp>
+#include <set>
+#include <utility>
 
 #include "balance_check.h"
 #include "gpu/device.h"
@@ -243,11 +246,35 @@ class RecordingTest : public QObject {
     QVERIFY(compared > 500);
   }
 
+  // In one texture, and in layers of 32 x 32 pages.
+  void the_address_of_a_page_leads_to_it_and_back_data() {
+    QTest::addColumn<int>("largest_texture");
+    QTest::newRow("one texture") << 0;
+    QTest::newRow("layers") << 512;
+  }
   void the_address_of_a_page_leads_to_it_and_back() {
-    const Scene scene;
-    const auto level_set = scene.start(solver::ExecutorKind::stream);
+    QFETCH(int, largest_texture);
+    gpu::DeviceOptions wanted;
+    wanted.version = gpu::GlVersion::gl33;
+    wanted.largest_texture = largest_texture;
+    solver::ExecutorOptions options;
+    options.device = good(gpu::Device::create_headless(wanted));
+    Scene scene;
+    if (largest_texture > 0) {
+      scene.geometry = grid({120, 120, 90});
+      scene.source = zero_volume(scene.geometry);
+    }
+    const auto level_set = executor(solver::ExecutorKind::stream, scene.source, scene.parameters, options);
+    const double radius_mm = largest_texture > 0 ? 42.0 : 7.0;
+    QVERIFY(level_set->paint({centre_of(scene.geometry), radius_mm}, solver::Brush::add));
     run(*level_set, 3);
-    for (const PassRecord& record : all_records(*level_set)) {
+    const std::vector<PassRecord> records = all_records(*level_set);
+    QCOMPARE(std::any_of(records.begin(), records.end(),
+                         [](const PassRecord& record) { return record.address.y >= 512; }),
+             largest_texture > 0);
+    std::set<std::pair<std::int64_t, std::int64_t>> addresses;
+    for (const PassRecord& record : records) {
+      addresses.insert({record.address.x, record.address.y});
       QCOMPARE(record.inverse.at(static_cast<std::size_t>(record.physical)), record.page);
       QVERIFY(record.address.x + PassRecord::kSide <= record.memory_size.x);
       QVERIFY(record.address.y + PassRecord::kSide <= record.memory_size.y);
@@ -255,6 +282,7 @@ class RecordingTest : public QObject {
       QCOMPARE(record.slice.at(static_cast<std::size_t>(place.x + record.layout.pages().x * place.y)),
                record.physical);
     }
+    QCOMPARE(addresses.size(), records.size());
   }
 
   void what_cannot_be_recorded_is_refused() {

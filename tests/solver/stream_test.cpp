@@ -347,7 +347,8 @@ class StreamTest : public QObject {
       for (std::sregex_iterator i(source.text.begin(), source.text.end(), sampler), end; i != end; ++i) {
         const std::string type = (*i)[1];
         const std::string uniform = (*i)[2];
-        QVERIFY2(type == "sampler2D" || uniform.starts_with("phi_") || uniform.ends_with("_volume"),
+        QVERIFY2(type == "sampler2D" || uniform.ends_with("_volume") ||
+                     (type == "sampler2DArray" && uniform.starts_with("phi_")),
                  uniform.c_str());
         QVERIFY2(uniform.find("table") == std::string::npos && uniform.find("record") == std::string::npos,
                  uniform.c_str());

@@ -56,7 +56,7 @@ class PhantomExecutorsTest : public QObject {
       // It grows into the layers, an edit is in some of them, and it goes on.
       const glm::dvec3 middle = problem->source->geometry.to_patient(problem->middle());
       QCOMPARE(failure((*level_set)->advance({.steps = 60})), QString());
-      QCOMPARE(failure((*level_set)->paint({middle, 40.0}, solver::Brush::add)), QString());
+      QCOMPARE(failure((*level_set)->paint({middle, 48.0}, solver::Brush::add)), QString());
       QCOMPARE(failure((*level_set)->advance({.steps = 30})), QString());
       QCOMPARE(
           failure((*level_set)->paint({middle + glm::dvec3(35.0, 0.0, 0.0), 12.0}, solver::Brush::erase)),

@@ -53,7 +53,7 @@ ClipPlaneStoryTest::Snapshot ClipPlaneStoryTest::snapshot(Desktop& desktop) {
 }
 
 void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_plays_data() {
-  add_executor_rows();
+  add_executor_rows({solver::ExecutorKind::stream});
 }
 
 void ClipPlaneStoryTest::spheres_on_the_plane_change_the_voxels_there_while_it_plays() {

@@ -25,7 +25,7 @@ solver::ExecutorKind story_executor() {
   const QByteArray name = qgetenv("TIDEMARK_STORIES");
   if (name.isEmpty()) return solver::ExecutorKind::host;
   if (const auto kind = solver::executor_named(name.toStdString())) return *kind;
-  qFatal("TIDEMARK_STORIES is \"%s\": it can be host, compute or stream", name.constData());
+  qFatal("TIDEMARK_STORIES is \"%s\": it can be auto, host, compute, stream or reference", name.constData());
 }
 
 void add_executor_rows(std::initializer_list<solver::ExecutorKind> besides) {

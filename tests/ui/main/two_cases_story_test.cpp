@@ -228,7 +228,7 @@ void TwoCasesStoryTest::linked_cases_are_looked_at_together() {
 }
 
 void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step_data() {
-  add_executor_rows();
+  add_executor_rows({solver::ExecutorKind::compute});
 }
 
 void TwoCasesStoryTest::cases_in_lock_step_rest_at_the_same_step() {

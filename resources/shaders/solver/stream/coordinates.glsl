@@ -1,7 +1,7 @@
 // Texels are read by texture coordinates, as on the paper's cards, not by number: a software driver
 // then has no level of detail to work out for each of them.
 
-// In G the layers stand one above the other: layer n has the coordinates n to n + 1 along y.
+// G's layers follow each other along y: layer n has the coordinates n to n + 1.
 
 uniform vec2 phi_texel;    // the size of a texel of G in texture coordinates
 uniform vec2 place_texel;  // ... of the intermediate buffers

@@ -20,7 +20,7 @@ const int kPlacesPerRow = 32;
 
 int record(int page, int field) { return texelFetch(page_records, page * kRecordLength + field).r; }
 
-// The first texel of a page in G, its layers one above the other.
+// The first texel of a page in G, whose layers follow each other along y.
 ivec2 page_address(int page, int field) {
   int packed_address = record(page, field);
   return ivec2(packed_address & 0xffff, packed_address >> 16 & 0xffff) * kTile;
