@@ -5,6 +5,12 @@
 #include <glm/common.hpp>
 
 namespace tidemark::renderer {
+namespace {
+
+// Two rows of two voxels.
+using Rows = float __attribute__((vector_size(4 * sizeof(float))));
+
+}  // namespace
 
 PhiPages::PhiPages(const solver::PageLayout& layout, double band)
     : layout_(layout), size_(layout.domain_size()), pages_(layout.pages()) {
@@ -81,45 +87,32 @@ std::vector<std::int64_t> PhiPages::resident_pages() const {
   return pages;
 }
 
-float PhiPages::at(glm::ivec3 voxel) const {
-  const glm::ivec3 v = glm::clamp(voxel, glm::ivec3(0), size_ - 1);
-  return values_of(page_number(page_of(v)))[offset_in_page(v)];
-}
-
+// The four rows of two voxels around the position, in lanes.
 float PhiPages::between(glm::vec3 position) const {
   const glm::vec3 p = glm::clamp(position, glm::vec3(0.0F), glm::vec3(size_ - 1));
   const glm::ivec3 low = glm::min(glm::ivec3(p), glm::max(size_ - 2, glm::ivec3(0)));
   const glm::vec3 f = p - glm::vec3(low);
-  float corner[8];
   const glm::ivec3 local = low & mask_;
-  if (local.x < mask_.x && local.y < mask_.y && local.z < mask_.z) {
-    // All eight in one page, as most are.
-    const float* page = values_of(page_number(page_of(low)));
-    if (is_static(page)) return *page;
-    const float* first = page + offset_in_page(low);
-    const int y = 1 << shift_.x;
-    const int z = y << shift_.y;
-    for (int i = 0; i < 8; ++i) corner[i] = first[(i & 1) + (i & 2 ? y : 0) + (i & 4 ? z : 0)];
-  } else {
-    const glm::ivec3 high = glm::min(low + 1, size_ - 1);
-    const int pages[3][2] = {
-        {low.x >> shift_.x, high.x >> shift_.x},
-        {(low.y >> shift_.y) * pages_.x, (high.y >> shift_.y) * pages_.x},
-        {(low.z >> shift_.z) * pages_.x * pages_.y, (high.z >> shift_.z) * pages_.x * pages_.y}};
-    const int offsets[3][2] = {
-        {local.x, high.x & mask_.x},
-        {local.y << shift_.x, (high.y & mask_.y) << shift_.x},
-        {local.z << (shift_.x + shift_.y), (high.z & mask_.z) << (shift_.x + shift_.y)}};
-    for (int i = 0; i < 8; ++i) {
-      const int x = i & 1;
-      const int y = i >> 1 & 1;
-      const int z = i >> 2;
-      corner[i] =
-          values_of(pages[0][x] + pages[1][y] + pages[2][z])[offsets[0][x] + offsets[1][y] + offsets[2][z]];
-    }
-  }
-  float along_z[4];
-  for (int i = 0; i < 4; ++i) along_z[i] = glm::mix(corner[i], corner[i + 4], f.z);
+  const int page = page_number(page_of(low));
+  // Whether the second voxel along an axis is in the next page; the volume's end has none.
+  const glm::ivec3 high = glm::min(low + 1, size_ - 1);
+  const bool leaves_x = (high.x >> shift_.x) != (low.x >> shift_.x);
+  const int page_y = (high.y >> shift_.y) != (low.y >> shift_.y) ? pages_.x : 0;
+  const int page_z = (high.z >> shift_.z) != (low.z >> shift_.z) ? pages_.x * pages_.y : 0;
+  const float* const first = values_of(page);
+  if (!leaves_x && page_y == 0 && page_z == 0 && is_static(first)) return *first;
+  const int y[2] = {local.y << shift_.x, (high.y & mask_.y) << shift_.x};
+  const int z[2] = {local.z << (shift_.x + shift_.y), (high.z & mask_.z) << (shift_.x + shift_.y)};
+  const auto rows = [&](int page_z_beside, int offset_z) {
+    const float* const near = values_of(page + page_z_beside) + y[0] + offset_z;
+    const float* const far = values_of(page + page_z_beside + page_y) + y[1] + offset_z;
+    const float* const near_end =
+        leaves_x ? values_of(page + page_z_beside + 1) + y[0] + offset_z : near + local.x + 1;
+    const float* const far_end =
+        leaves_x ? values_of(page + page_z_beside + page_y + 1) + y[1] + offset_z : far + local.x + 1;
+    return Rows{near[local.x], *near_end, far[local.x], *far_end};
+  };
+  const Rows along_z = rows(0, z[0]) * (1.0F - f.z) + rows(page_z, z[1]) * f.z;
   return glm::mix(glm::mix(along_z[0], along_z[2], f.y), glm::mix(along_z[1], along_z[3], f.y), f.x);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -48,7 +49,10 @@ class PhiPages {
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
   // Clamped to the volume.
-  [[nodiscard]] float at(glm::ivec3 voxel) const;
+  [[nodiscard]] float at(glm::ivec3 voxel) const {
+    const glm::ivec3 v = glm::clamp(voxel, glm::ivec3(0), size_ - 1);
+    return values_of(page_number(page_of(v)))[offset_in_page(v)];
+  }
   // Trilinear; voxel coordinates, integers at voxel centres. Beyond the volume as at its border.
   [[nodiscard]] float between(glm::vec3 position) const;
   // d phi / d voxel, from differences over a voxel to each side.

@@ -194,7 +194,8 @@ RayCaster::Piece RayCaster::march_to_surface(Ray& ray, float stop) const {
       follow(ray, ray.t, page);
       const bool resident = (kinds_[page.number] & PageKinds::kPhi) != 0;
       if (!view_.quality.skip_empty) break;
-      if (resident && std::abs(phi.at(glm::ivec3(glm::floor(on(ray, ray.t) + 0.5F)))) < nearly_band) break;
+      // Cut off instead of rounded down: the same, as the volume begins at -0.5.
+      if (resident && std::abs(phi.at(glm::ivec3(on(ray, ray.t) + 0.5F))) < nearly_band) break;
       before = ray.t;
       ray.t = resident ? std::min(ray.t + 1.0F, page.end) : skip(ray, page);
     }

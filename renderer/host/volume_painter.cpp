@@ -20,7 +20,7 @@ void prepare(HostScene& scene, const VolumeView& view, ThreadPool& threads) {
 }
 
 std::uint8_t as_byte(float share) {
-  return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(share, 0.0F, 1.0F)));
+  return static_cast<std::uint8_t>(255.0F * std::clamp(share, 0.0F, 1.0F) + 0.5F);
 }
 
 }  // namespace
