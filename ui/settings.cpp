@@ -1,5 +1,6 @@
 #include "ui/settings.h"
 
+#include <QDir>
 #include <QFileInfo>
 #include <QRegularExpression>
 
@@ -56,6 +57,15 @@ QString origin_text(const SettingText& setting) {
   return QStringLiteral("the program's");
 }
 
+QString documents() {
+  return QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+}
+
+// Not everybody has a folder for documents.
+QString begin_folder() {
+  return QFileInfo::exists(documents()) ? documents() : QDir::homePath();
+}
+
 }  // namespace
 
 bool is_locked(const QString& name) {
@@ -74,9 +84,16 @@ void set_setting(const QString& name, const QVariant& value) {
   if (!is_locked(name)) QSettings().setValue(name, value);
 }
 
+Setting<QString> settings::open_folder() {
+  return Setting<QString>("open/folder", begin_folder());
+}
+
+Setting<QString> settings::save_folder() {
+  return Setting<QString>("save/folder", begin_folder());
+}
+
 Setting<QString> settings::retrieval_folder() {
-  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-  return Setting<QString>("pacs/folder", documents + "/Tidemark");
+  return Setting<QString>("pacs/folder", documents() + "/Tidemark");
 }
 
 QString settings::site_file() {

@@ -103,12 +103,9 @@ inline Setting<bool> details(const QString& key) {
   return Setting<bool>("details/" + key);
 }
 // Folders that were used last.
-inline Setting<QString> open_folder() {
-  return Setting<QString>("open/folder");
-}
-inline Setting<QString> save_folder() {
-  return Setting<QString>("save/folder");
-}
+// Where the dialogs for files begin; at first in the user's documents, else at home.
+[[nodiscard]] Setting<QString> open_folder();
+[[nodiscard]] Setting<QString> save_folder();
 // For what comes from servers; at first Tidemark in the user's documents.
 [[nodiscard]] Setting<QString> retrieval_folder();
 inline Setting<QString> server() {  // by name; the one used last

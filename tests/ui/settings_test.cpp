@@ -1,7 +1,9 @@
 // Whose value counts: the user's, the site's, the program's.
 #include "ui/settings.h"
 
+#include <QDir>
 #include <QFile>
+#include <QScopeGuard>
 #include <QTest>
 
 #include "tests/support/support.h"
@@ -64,6 +66,20 @@ class SettingsTest : public QObject {
       QSettings().setValue("theme", kept);
       QCOMPARE(ui::settings::theme().get(), theme);
     }
+  }
+
+  void dialogs_for_files_begin_in_the_users_documents() {
+    const TemporaryFolder home;
+    const auto back = qScopeGuard([before = qgetenv("HOME")] { qputenv("HOME", before); });
+    qputenv("HOME", QByteArray::fromStdString(home.path().string()));
+    const QString folder = QDir::homePath();
+    QCOMPARE(folder, QString::fromStdString(home.path().string()));
+    QCOMPARE(ui::settings::open_folder().get(), folder);  // without one
+    QVERIFY(QDir(folder).mkdir("Documents"));
+    QCOMPARE(ui::settings::open_folder().get(), folder + "/Documents");
+    QCOMPARE(ui::settings::save_folder().get(), folder + "/Documents");
+    ui::settings::save_folder().set("/elsewhere");
+    QCOMPARE(ui::settings::save_folder().get(), QStringLiteral("/elsewhere"));
   }
 
   void what_is_printed_can_be_a_sites_file() {

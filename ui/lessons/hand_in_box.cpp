@@ -16,6 +16,7 @@
 #include "ui/look/theme.h"
 #include "ui/main/case_files.h"
 #include "ui/results/file_name.h"
+#include "ui/settings.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/path_text.h"
 
@@ -94,7 +95,7 @@ QString HandInBox::score_text() const {
 }
 
 void HandInBox::ask(const QString& filter, const QString& suffix) {
-  QFileDialog dialog(this, tr("Save the answers"), {}, filter);
+  QFileDialog dialog(this, tr("Save the answers"), settings::save_folder().get(), filter);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setDefaultSuffix(suffix.mid(1));
   // Answers of a course come together in a folder.
@@ -102,7 +103,9 @@ void HandInBox::ask(const QString& filter, const QString& suffix) {
       lesson_words(course_.lesson().title) + QStringLiteral(" - ") + name_->text().trimmed();
   dialog.selectFile(file_name_of(whose) + suffix);
   if (dialog.exec() == QDialog::Accepted && !dialog.selectedFiles().isEmpty()) {
-    write(dialog.selectedFiles().constFirst());
+    const QString file = dialog.selectedFiles().constFirst();
+    settings::save_folder().set(QFileInfo(file).absolutePath());
+    write(file);
   }
 }
 

@@ -69,7 +69,7 @@ void ImageAdder::connect_opener() {
 }
 
 void ImageAdder::ask_for_file(CaseWindow& into) {
-  auto* dialog = new QFileDialog(&into, tr("Add an image"), QString(),
+  auto* dialog = new QFileDialog(&into, tr("Add an image"), settings::open_folder().get(),
                                  tr("Images (*.dcm %1);;All files (*)").arg(QLatin1String(kVolumePatterns)));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(QFileDialog::ExistingFile);

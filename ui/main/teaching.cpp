@@ -22,6 +22,7 @@
 #include "ui/main/case_window.h"
 #include "ui/main/main_window.h"
 #include "ui/main/side_dock.h"
+#include "ui/settings.h"
 #include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
@@ -79,7 +80,8 @@ void Teaching::show_list(QPoint at) {
 }
 
 void Teaching::ask_and_open() {
-  const QString file = QFileDialog::getOpenFileName(&window_, tr("Open a lesson"), {}, tr("Lesson (*.json)"));
+  const QString file = QFileDialog::getOpenFileName(&window_, tr("Open a lesson"),
+                                                    settings::open_folder().get(), tr("Lesson (*.json)"));
   if (!file.isEmpty()) open(file);
 }
 

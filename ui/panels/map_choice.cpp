@@ -10,6 +10,7 @@
 #include "engine/message_text.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/settings.h"
 #include "ui/widgets/file_patterns.h"
 #include "ui/widgets/path_text.h"
 
@@ -53,7 +54,7 @@ void MapChoice::refresh() {
 }
 
 void MapChoice::choose() {
-  auto* dialog = new QFileDialog(this, tr("Map that drives the surface"), {},
+  auto* dialog = new QFileDialog(this, tr("Map that drives the surface"), settings::open_folder().get(),
                                  tr("Maps (*.dcm %1);;All files (*)").arg(QLatin1String(kVolumePatterns)));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setFileMode(QFileDialog::ExistingFile);

@@ -14,6 +14,7 @@
 #include "ui/look/theme.h"
 #include "ui/panels/model_choice.h"
 #include "ui/results/file_name.h"
+#include "ui/settings.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/path_text.h"
@@ -225,7 +226,7 @@ void ModelControls::use_as_speed() {
   if (!wanted || client_.busy()) return;
   const auto finding = of(*wanted).finding;
   auto* dialog =
-      new QFileDialog(this, tr("Keep the map that drives the surface"), {},
+      new QFileDialog(this, tr("Keep the map that drives the surface"), settings::save_folder().get(),
                       tr("Volumes (%1);;All files (*)").arg(QStringLiteral("*.nii.gz *.nii *.nrrd *.mha")));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setAcceptMode(QFileDialog::AcceptSave);
