@@ -116,13 +116,13 @@ def main(preset, options):
     passed = passed_before(kept)
     inputs = Inputs(build)
     now = {test["name"]: inputs.of(test) for test in wanted}
-    to_run = [name for name in now if run_all or passed.get(name) != now[name]]
+    to_run = {name for name in now if run_all or passed.get(name) != now[name]}
     if len(to_run) < len(now):
         print(f"{len(now) - len(to_run)} of {len(now)} tests have passed with the same program and files, and are not "
               "run again", flush=True)
     if not to_run:
         return 0
-    numbers = [str(number) for number, test in enumerate(wanted, 1) if test["name"] in set(to_run)]
+    numbers = [str(number) for number, test in enumerate(wanted, 1) if test["name"] in to_run]
     report = build / "test_report.xml"
     report.unlink(missing_ok=True)
     result = subprocess.run([*ctest, *options, "--output-junit", str(report),
