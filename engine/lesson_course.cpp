@@ -136,10 +136,12 @@ void LessonCourse::take_case(CaseProxy& proxy) {
                               [&](const LessonCase& one) { return one.study == study || !one.proxy; }),
                cases_.end());
   cases_.push_back({study, &proxy, {}, 0, 0});
-  connect(&proxy, &QObject::destroyed, this, [this] {
+  // Once it is gone: those who listen look at windows, and its window is being destroyed with it.
+  const auto follow_closing = [this] {
     end_attempt();
     emit changed();
-  });
+  };
+  connect(&proxy, &QObject::destroyed, this, follow_closing, Qt::QueuedConnection);
   connect(&proxy, &CaseProxy::state_changed, this, &LessonCourse::changed);
   connect(&proxy, &CaseProxy::failed, this, &LessonCourse::end_attempt);
   if (attempt_) return begin();

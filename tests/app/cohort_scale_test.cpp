@@ -1,4 +1,5 @@
-// A cohort of ten thousand small cases, killed at random moments and resumed. Prints what it cost.
+// A cohort of ten thousand small cases, a thousand under sanitizers, killed at random moments and resumed.
+// Prints what it cost.
 #include <signal.h>
 
 #include <QElapsedTimer>
@@ -16,7 +17,11 @@ namespace tidemark::test::cohort_scale_test {
 
 namespace {
 
+#ifdef TIDEMARK_SANITIZED
+constexpr int kCases = 1'000;
+#else
 constexpr int kCases = 10'000;
+#endif
 constexpr int kKills = 20;
 constexpr int kJobs = 2;
 constexpr Index3 kSize{32};
@@ -89,7 +94,9 @@ void CohortScaleTest::killed_at_random_moments_no_case_is_lost_and_none_is_done_
   plan(out);
   FolderEvents published(out / "cases", IN_MOVED_TO);
   std::mt19937 random(7);
-  std::uniform_int_distribution<int> some(0, 400);  // cases; twenty times that is less than all
+  std::uniform_int_distribution<int> some(
+      0, kCases / (kKills + 5));                    // cases: with each kill so many, less than all
+  std::uniform_int_distribution<int> delay(0, 40);  // ms
   for (int kills = 0; kills < kKills; ++kills) {
     const qsizetype enough = published.by_name().size() + some(random);
     QProcess process;
@@ -97,7 +104,7 @@ void CohortScaleTest::killed_at_random_moments_no_case_is_lost_and_none_is_done_
     QVERIFY(process.waitForStarted());
     const auto number = static_cast<pid_t>(process.processId());
     while (published.by_name().size() < enough) QVERIFY(!process.waitForFinished(5));
-    QVERIFY(!process.waitForFinished(some(random) / 10));
+    QVERIFY(!process.waitForFinished(delay(random)));
     QCOMPARE(::kill(number, SIGKILL), 0);
     process.waitForFinished();
   }
@@ -139,7 +146,9 @@ void CohortScaleTest::a_run_takes_no_more_memory_the_longer_it_is() {
   QVERIFY(process.waitForFinished(-1));
   const double total = seconds(timer);
   QCOMPARE(process.exitCode(), 0);
+#ifndef TIDEMARK_SANITIZED  // what is freed stays with the sanitizer
   QVERIFY2(early > 0 && late - early < 4096, qPrintable(QString("%1 kB, then %2 kB").arg(early).arg(late)));
+#endif
 
   double in_solver = 0.0;
   for (int i = 0; i < kCases; ++i) {

@@ -313,7 +313,8 @@ void CohortReview::add(const std::shared_ptr<const engine::LoadedStudy>& study,
 
 void CohortReview::take_case(std::shared_ptr<CohortCase> open) {
   open_ = std::move(open);
-  connect(open_->window, &QObject::destroyed, this, &CohortReview::follow_closing);
+  // Once it is gone: while it is being destroyed it is no case window any more.
+  connect(open_->window, &QObject::destroyed, this, &CohortReview::follow_closing, Qt::QueuedConnection);
   follow_case();
 }
 
