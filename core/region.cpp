@@ -4,7 +4,7 @@
 #include <cstring>
 #include <glm/common.hpp>
 
-#include "core/shared_slices.h"
+#include "core/paged_bytes.h"
 
 namespace tidemark {
 namespace {
@@ -17,6 +17,21 @@ VoxelRange box_of(const Region& region) {
 
 VoxelRange common_box(const Region& a, const Region& b) {
   return {glm::max(box_of(a).low, box_of(b).low), glm::min(box_of(a).high, box_of(b).high)};
+}
+
+// The voxels of a page's row that have that value, the first in the lowest bit.
+std::uint64_t word_of(const std::uint8_t* row, std::uint8_t value) {
+  constexpr std::uint64_t kLow = 0x0101010101010101;
+  std::uint64_t word = 0;
+  for (int n = 0; n < 8; ++n) {
+    std::uint64_t bytes;
+    std::memcpy(&bytes, row + 8 * n, sizeof(bytes));
+    bytes ^= kLow * value;  // 0 where it is the value
+    const std::uint64_t other = ((bytes & (kLow * 0x7F)) + kLow * 0x7F) | bytes;
+    const std::uint64_t same = ~other >> 7U & kLow;
+    word |= same * 0x0102040810204080 >> 56U << (8 * n);
+  }
+  return word;
 }
 
 // Calls visit(j, k, word of a, word of b) for the words of a box that both have room for; a reference to a
@@ -59,32 +74,36 @@ Region::Region(const Mask& mask) : Region(VoxelRange{Index3(0), mask.geometry.si
   }
 }
 
-Region::Region(const SharedSlices& values, std::uint8_t value) {
-  const Index3 size = values.size();
-  VoxelRange box{size, Index3(0)};
-  for (std::int64_t k = 0; k < size.z; ++k) {
-    for (std::int64_t j = 0; j < size.y; ++j) {
-      const auto voxels = values.row(j, k);
-      if (voxels.empty()) continue;
-      const auto* begin = static_cast<const std::uint8_t*>(std::memchr(voxels.data(), value, voxels.size()));
-      if (begin == nullptr) continue;
-      const auto end = std::find(voxels.rbegin(), voxels.rend(), value).base();
-      box.low = glm::min(box.low, Index3(begin - voxels.data(), j, k));
-      box.high = glm::max(box.high, Index3(end - voxels.begin(), j + 1, k + 1));
-    }
-  }
-  *this = Region(box);
-  for (std::int64_t k = box.low.z; k < box.high.z; ++k) {
-    for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
-      const auto voxels = values.row(j, k);
-      if (voxels.empty()) continue;
-      const auto words = row(j, k);
-      for (std::int64_t i = box.low.x; i < box.high.x; ++i) {
-        const std::int64_t bit = i - first_.x;
-        words[static_cast<std::size_t>(bit / kBits)] |=
-            std::uint64_t{voxels[static_cast<std::size_t>(i)] == value ? 1U : 0U} << (bit % kBits);
+Region::Region(const PagedBytes& values, std::uint8_t value) {
+  static_assert(PagedBytes::kPageShape.x == kBits);
+  const PageLayout& layout = values.layout();
+  std::vector<std::int64_t> pages;  // that hold the value
+  VoxelRange box{layout.domain_size(), Index3(0)};
+  const auto for_each_word = [&](std::int64_t page, const auto& visit) {
+    const Index3 first = layout.first_voxel(page);
+    const Index3 shape = layout.valid_shape(page);
+    for (std::int64_t z = 0; z < shape.z; ++z) {
+      for (std::int64_t y = 0; y < shape.y; ++y) {
+        const std::uint8_t* const row = values.page(page) + kBits * (y + PagedBytes::kPageShape.y * z);
+        if (const std::uint64_t word = word_of(row, value); word != 0) visit(first + Index3(0, y, z), word);
       }
     }
+  };
+  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+    if (values.page(page) == nullptr) continue;
+    bool any = false;
+    for_each_word(page, [&](Index3 voxel, std::uint64_t word) {
+      any = true;
+      box.low = glm::min(box.low, voxel + Index3(std::countr_zero(word), 0, 0));
+      box.high = glm::max(box.high, voxel + Index3(kBits - std::countl_zero(word), 1, 1));
+    });
+    if (any) pages.push_back(page);
+  }
+  *this = Region(box);
+  for (const std::int64_t page : pages) {
+    for_each_word(page, [&](Index3 voxel, std::uint64_t word) {
+      row(voxel.y, voxel.z)[static_cast<std::size_t>((voxel.x - first_.x) / kBits)] = word;
+    });
   }
 }
 

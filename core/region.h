@@ -10,7 +10,7 @@
 
 namespace tidemark {
 
-class SharedSlices;
+class PagedBytes;
 
 // A box of voxels: from `low` up to, and without, `high`.
 struct VoxelRange {
@@ -35,9 +35,9 @@ class Region {
   // No voxel, and room for those of the box.
   explicit Region(const VoxelRange& box);
   // The voxels that are not 0. The second form: those of that value, which is
-  // not what slices without memory hold.
+  // not what pages without memory hold.
   explicit Region(const Mask& mask);
-  Region(const SharedSlices& values, std::uint8_t value);
+  Region(const PagedBytes& values, std::uint8_t value);
 
   // Of any voxel, in the box or not.
   [[nodiscard]] bool contains(Index3 voxel) const;

@@ -19,7 +19,7 @@ struct CoarseInputs {
   solver::ExecutorKind kind = solver::ExecutorKind::automatic;
   solver::ExecutorOptions options;
   double band = 0.0;  // of the result, as its pages
-  Index3 page_shape = solver::kDefaultPageShape;
+  Index3 page_shape = kDefaultPageShape;
 };
 
 // A run on a coarser grid, to rest or to kMostCoarseSteps.

@@ -99,7 +99,7 @@ Result<std::shared_ptr<const solver::Field>> field_from_file(const Geometry& geo
                                                              std::span<const std::int32_t> table,
                                                              std::span<const float> pages,
                                                              const std::string& what) {
-  const solver::PageLayout layout(geometry.size, page_shape);
+  const PageLayout layout(geometry.size, page_shape);
   if (static_cast<std::int64_t>(table.size()) != layout.page_count())
     return fail(ErrorKind::input, "{}: the page table or the pages have the wrong size", what);
   auto fields = fields_from_file(geometry, band, page_shape, table, pages, what);

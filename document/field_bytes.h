@@ -34,7 +34,7 @@ class FieldBytes {
   std::vector<std::int32_t> tables_;
   std::vector<float> pages_;
   std::unordered_map<const float*, std::int32_t> numbers_;  // of pages that lie at a place
-  std::vector<solver::SharedPages> kept_;                   // so that no other page comes to lie there
+  std::vector<SharedPages> kept_;                           // so that no other page comes to lie there
 };
 inline constexpr std::int32_t kOutsideEntry = -1;
 inline constexpr std::int32_t kInsideEntry = -2;

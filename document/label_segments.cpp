@@ -53,11 +53,20 @@ struct Taken {
   }
 };
 
-void give_voxels(const imaging::Segment& segment, std::uint8_t id, const Taken& taken, SharedSlices& voxels) {
+void give_voxels(const imaging::Segment& segment, std::uint8_t id, const Taken& taken, PagedBytes& voxels) {
+  const std::int64_t width = voxels.size().x;
+  std::vector<std::uint8_t> ids(static_cast<std::size_t>(width));
   for (const auto& [k, slice] : segment.slices) {
-    std::uint8_t* const ids = voxels.change(k);
-    for (std::size_t i = 0; i < slice.size(); ++i) {
-      if (slice[i] != 0 && !taken.locked[ids[i]]) ids[i] = id;
+    for (std::int64_t j = 0; j < voxels.size().y; ++j) {
+      voxels.read({0, j, k}, {width, 1, 1}, ids.data());
+      const auto gets = [&, row = slice.data() + width * j](std::int64_t i) {
+        return row[i] != 0 && !taken.locked[ids[static_cast<std::size_t>(i)]];
+      };
+      for (std::int64_t i = 0; i < width; ++i) {
+        const std::int64_t begin = i;
+        while (i < width && gets(i)) ++i;
+        if (i > begin) voxels.fill({begin, j, k}, {i - begin, 1, 1}, id);
+      }
     }
   }
 }
@@ -65,7 +74,7 @@ void give_voxels(const imaging::Segment& segment, std::uint8_t id, const Taken& 
 }  // namespace
 
 imaging::Segments segments_of(const Geometry& geometry, std::span<const Label> labels,
-                              const SharedSlices& voxels) {
+                              const PagedBytes& voxels) {
   imaging::Segments segments{geometry, {}, {}};
   for (const Label& label : labels) {
     imaging::Segment segment;
@@ -91,7 +100,7 @@ Status add_segments(Labels& labels, const imaging::Segments& segments) {
                 segments.list.size(), labels.list().size());
   }
   std::vector<Label> list = labels.list();
-  SharedSlices voxels = labels.voxels();
+  PagedBytes voxels = labels.voxels();
   Taken taken(list);
   std::string names;
   for (const imaging::Segment& segment : segments.list) {
@@ -104,6 +113,7 @@ Status add_segments(Labels& labels, const imaging::Segments& segments) {
     names += (names.empty() ? "" : ", ") + label.name;
     list.push_back(std::move(label));
   }
+  voxels.join_even_pages(labels.voxels());
   return labels.replace(ChangeKind::import_labels, names, std::move(list), std::move(voxels));
 }
 

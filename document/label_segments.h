@@ -12,7 +12,7 @@ namespace tidemark::document {
 // A segment for each label, in their order, with name, colour and meaning; labels without voxels are empty
 // segments. `voxels` holds a label id for each voxel of the grid, or nothing.
 [[nodiscard]] imaging::Segments segments_of(const Geometry& geometry, std::span<const Label> labels,
-                                            const SharedSlices& voxels);
+                                            const PagedBytes& voxels);
 [[nodiscard]] imaging::Segments segments_of(const Labels& labels);
 
 // A new label for each segment, with its name, and its colour and meaning if it has them: one entry of the

@@ -56,8 +56,8 @@ struct LabelToolUse {
 struct LabelVoxels {
   Geometry geometry;
   std::vector<Label> list;
-  std::shared_ptr<const SharedSlices> voxels;  // null: none has a label
-  std::shared_ptr<const solver::Field> phi;    // of the surface; null: there is none
+  std::shared_ptr<const PagedBytes> voxels;  // null: none has a label
+  std::shared_ptr<const solver::Field> phi;  // of the surface; null: there is none
 
   // Of a label, or what is inside of the surface.
   [[nodiscard]] Region region(std::uint8_t label) const;

@@ -30,7 +30,7 @@ Result<Label> new_label(const std::vector<Label>& list, std::string name) {
 
 }  // namespace
 
-// A run of voxels that had one label and have another one now.
+// A run of voxels along i that had one label and have another one now.
 struct Labels::Run {
   std::int64_t begin = 0;
   std::int64_t length = 0;
@@ -63,8 +63,10 @@ class LabelsChange : public Change {
  private:
   template <class Iterator>
   void restore(std::vector<Label> list, Iterator begin, Iterator end, std::uint8_t Labels::Run::*side) {
-    SharedSlices voxels = labels_.voxels_;
-    for (auto run = begin; run != end; ++run) voxels.fill(run->begin, run->length, *run.*side);
+    PagedBytes voxels = labels_.voxels_;
+    for (auto run = begin; run != end; ++run)
+      voxels.fill(labels_.geometry_.voxel_at(run->begin), {run->length, 1, 1}, *run.*side);
+    voxels.join_even_pages(labels_.voxels_);
     labels_.list_.swap(list);
     if (runs_.empty()) return;
     std::swap(labels_.voxels_, voxels);
@@ -82,7 +84,7 @@ const Label* Labels::find(std::uint8_t id) const {
 }
 
 Status Labels::change(ChangeKind kind, const std::string& name, std::vector<Label> list,
-                      std::vector<Run> runs, SharedSlices voxels) {
+                      std::vector<Run> runs, PagedBytes voxels) {
   if (history_ != nullptr) {
     TIDEMARK_TRY(history_->close());
   }
@@ -125,11 +127,12 @@ Status Labels::remove(std::uint8_t id) {
   std::vector<Label> list = list_;
   std::erase_if(list, [&](const Label& label) { return label.id == id; });
   std::vector<Run> runs;
-  SharedSlices voxels = voxels_;
+  PagedBytes voxels = voxels_;
   region(id).for_each_run([&](Index3 voxel, std::int64_t length) {
-    const Run& run = runs.emplace_back(Run{geometry_.offset(voxel), length, id, 0});
-    voxels.fill(run.begin, run.length, run.after);
+    runs.push_back({geometry_.offset(voxel), length, id, 0});
+    voxels.fill(voxel, {length, 1, 1}, 0);
   });
+  voxels.join_even_pages(voxels_);
   return change(ChangeKind::remove_label, present->name, std::move(list), std::move(runs), std::move(voxels));
 }
 
@@ -145,30 +148,28 @@ Status Labels::check(const std::vector<Label>& list, const LabelRegion& wanted) 
 
 // Those voxels of the region that are free get that label.
 void Labels::give_voxels(const Region& region, std::uint8_t after, const std::array<bool, 256>& free,
-                         Acceptance& acceptance, std::vector<Run>& runs, SharedSlices& voxels) const {
+                         Acceptance& acceptance, std::vector<Run>& runs, PagedBytes& voxels) const {
   const std::size_t first_run = runs.size();
+  std::vector<std::uint8_t> row;
   region.for_each_run([&](Index3 voxel, std::int64_t length) {
-    const std::int64_t begin = geometry_.offset(voxel);
-    const std::span<const std::uint8_t> row = voxels.row(voxel.y, voxel.z);
-    const auto label_at = [&](std::int64_t at) {
-      return row.empty() ? std::uint8_t{0} : row[static_cast<std::size_t>(voxel.x + at - begin)];
-    };
-    for (std::int64_t at = begin; at < begin + length;) {
-      const std::uint8_t before = label_at(at);
+    row.resize(static_cast<std::size_t>(length));
+    voxels.read(voxel, {length, 1, 1}, row.data());
+    for (std::int64_t at = 0; at < length;) {
+      const std::uint8_t before = row[static_cast<std::size_t>(at)];
       std::int64_t end = at + 1;
-      while (end < begin + length && label_at(end) == before) ++end;
+      while (end < length && row[static_cast<std::size_t>(end)] == before) ++end;
       if (!free[before]) {
         acceptance.left += end - at;
       } else {
         if (after != 0) acceptance.taken += end - at;
         if (after != 0 && before != 0 && before != after) acceptance.from_others += end - at;
-        if (before != after) runs.push_back({at, end - at, before, after});
+        if (before != after) runs.push_back({geometry_.offset(voxel) + at, end - at, before, after});
       }
       at = end;
     }
   });
   for (std::size_t n = first_run; n < runs.size(); ++n)
-    voxels.fill(runs[n].begin, runs[n].length, runs[n].after);
+    voxels.fill(geometry_.voxel_at(runs[n].begin), {runs[n].length, 1, 1}, runs[n].after);
 }
 
 Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, Giving giving) {
@@ -185,7 +186,7 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
     acceptance.label += (acceptance.label.empty() ? "" : ", ") + label_in(list, wanted.label)->name;
   }
   std::vector<Run> runs;
-  SharedSlices voxels = voxels_;  // each region is found on top of those before it
+  PagedBytes voxels = voxels_;  // each region is found on top of those before it
   for (const LabelRegion& wanted : regions) {
     std::array<bool, 256> free{};  // whose voxels may be given away
     free[0] = free[wanted.label] = true;
@@ -206,6 +207,7 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
     }
     give_voxels(wanted.region, wanted.label, free, acceptance, runs, voxels);
   }
+  voxels.join_even_pages(voxels_);
   Status changed = change(kind, acceptance.label, std::move(list), std::move(runs), std::move(voxels));
   if (!changed) return pass_on(changed);
   return acceptance;
@@ -231,7 +233,7 @@ Mask Labels::mask(std::uint8_t id) const {
   return mask_of(region(id), geometry_);
 }
 
-Status Labels::check(const std::vector<Label>& list, const SharedSlices& voxels) const {
+Status Labels::check(const std::vector<Label>& list, const PagedBytes& voxels) const {
   std::array<bool, 256> known{true};
   for (const Label& label : list) {
     if (label.id == 0 || known[label.id]) {
@@ -244,40 +246,35 @@ Status Labels::check(const std::vector<Label>& list, const SharedSlices& voxels)
     return fail(ErrorKind::usage, "{} labelled voxels, the volume has {}", size.x * size.y * size.z,
                 geometry_.voxel_count());
   }
-  for (std::int64_t k = 0; k < geometry_.size.z; ++k) {
-    const std::span<const std::uint8_t> slice = voxels.slice(k);
-    const auto stray = std::find_if(slice.begin(), slice.end(), [&](std::uint8_t id) { return !known[id]; });
-    if (stray != slice.end())
-      return fail(ErrorKind::usage, "a voxel has label {}, which is not in the list", *stray);
+  for (std::int64_t page = 0; page < voxels.layout().page_count(); ++page) {
+    const std::uint8_t* const values = voxels.page(page);
+    if (values == nullptr) continue;
+    const std::uint8_t* const end = values + voxels.layout().voxels_per_page();
+    const auto* const stray = std::find_if(values, end, [&](std::uint8_t id) { return !known[id]; });
+    if (stray != end) return fail(ErrorKind::usage, "a voxel has label {}, which is not in the list", *stray);
   }
   return {};
 }
 
-Status Labels::replace(ChangeKind kind, const std::string& name, std::vector<Label> list,
-                       SharedSlices voxels) {
+Status Labels::replace(ChangeKind kind, const std::string& name, std::vector<Label> list, PagedBytes voxels) {
   TIDEMARK_TRY(check(list, voxels));
   std::vector<Run> runs;
-  const auto area = static_cast<std::size_t>(geometry_.size.x * geometry_.size.y);
-  for (const std::int64_t k : voxels.differing_slices(voxels_)) {
-    const std::span<const std::uint8_t> then = voxels_.slice(k);
-    const std::span<const std::uint8_t> now = voxels.slice(k);
-    for (std::size_t i = 0; i < area; ++i) {
-      const std::uint8_t before = then.empty() ? std::uint8_t{0} : then[i];
-      const std::uint8_t after = now.empty() ? std::uint8_t{0} : now[i];
-      if (before == after) continue;
-      const std::int64_t at = static_cast<std::int64_t>(area) * k + static_cast<std::int64_t>(i);
-      if (!runs.empty() && runs.back().begin + runs.back().length == at && runs.back().before == before &&
-          runs.back().after == after) {
-        ++runs.back().length;
-      } else {
-        runs.push_back({at, 1, before, after});
-      }
-    }
-  }
+  PagedBytes::for_each_difference(
+      voxels_, voxels, [&](Index3 voxel, std::int64_t length, std::uint8_t before, std::uint8_t after) {
+        const std::int64_t begin = geometry_.offset(voxel);
+        const bool goes_on = voxel.x > 0 && !runs.empty() &&
+                             runs.back().begin + runs.back().length == begin &&
+                             runs.back().before == before && runs.back().after == after;
+        if (goes_on) {
+          runs.back().length += length;
+        } else {
+          runs.push_back({begin, length, before, after});
+        }
+      });
   return change(kind, name, std::move(list), std::move(runs), std::move(voxels));
 }
 
-Status Labels::assign(std::vector<Label> list, SharedSlices voxels) {
+Status Labels::assign(std::vector<Label> list, PagedBytes voxels) {
   TIDEMARK_TRY(check(list, voxels));
   list_ = std::move(list);
   voxels_ = std::move(voxels);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/paged_bytes.h"
 #include "core/region.h"
-#include "core/shared_slices.h"
 #include "core/volume.h"
 #include "document/history.h"
 #include "imaging/results/segment_meaning.h"
@@ -57,7 +57,7 @@ class Labels {
   [[nodiscard]] const std::vector<Label>& list() const { return list_; }
   [[nodiscard]] const Label* find(std::uint8_t id) const;  // null: there is none
   // A label id for each voxel, 0 for none.
-  [[nodiscard]] const SharedSlices& voxels() const { return voxels_; }
+  [[nodiscard]] const PagedBytes& voxels() const { return voxels_; }
   [[nodiscard]] std::uint64_t revision() const { return revision_; }  // another after each change of voxels
 
   // A new label with a colour that differs from the others'. Fails (ErrorKind::usage) when there are 255.
@@ -79,31 +79,31 @@ class Labels {
   [[nodiscard]] Region region(std::uint8_t id) const { return {voxels_, id}; }
 
   // Other labels and other voxels, all at once. Fails as assign() does.
-  Status replace(ChangeKind kind, const std::string& name, std::vector<Label> list, SharedSlices voxels);
+  Status replace(ChangeKind kind, const std::string& name, std::vector<Label> list, PagedBytes voxels);
 
   // Restores saved labels; not an entry of the history. Fails (ErrorKind::usage) when a voxel's label is not
   // in the list, an id is there twice, or the voxels are of another grid.
-  Status assign(std::vector<Label> list, SharedSlices voxels);
+  Status assign(std::vector<Label> list, PagedBytes voxels);
 
  private:
   friend class LabelsChange;
   struct Run;
-  [[nodiscard]] Status check(const std::vector<Label>& list, const SharedSlices& voxels) const;
+  [[nodiscard]] Status check(const std::vector<Label>& list, const PagedBytes& voxels) const;
   [[nodiscard]] Status check(const std::vector<Label>& list, const LabelRegion& wanted) const;
   enum class Giving { replaces, adds, erases };
   Result<Acceptance> give(ChangeKind kind, std::vector<LabelRegion> regions, Take take, Giving giving);
   void give_voxels(const Region& region, std::uint8_t after, const std::array<bool, 256>& free,
-                   Acceptance& acceptance, std::vector<Run>& runs, SharedSlices& voxels) const;
+                   Acceptance& acceptance, std::vector<Run>& runs, PagedBytes& voxels) const;
 
   // Another list and other voxels, as an entry of the history. `runs` are what differs in them: put one after
   // the other, they make `voxels` of those before.
   Status change(ChangeKind kind, const std::string& name, std::vector<Label> list, std::vector<Run> runs,
-                SharedSlices voxels);
+                PagedBytes voxels);
 
   Geometry geometry_;
   History* history_;
   std::vector<Label> list_;
-  SharedSlices voxels_;
+  PagedBytes voxels_;
   std::uint64_t revision_ = 0;
 };
 

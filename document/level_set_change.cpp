@@ -16,7 +16,7 @@ Recipe without_events(const Recipe& recipe, std::size_t common) {
 std::int64_t bytes_apart(const solver::Field& a, const solver::Field& b) {
   if (!(a.layout == b.layout)) return a.pages.bytes() + b.pages.bytes();
   std::int64_t pages = 0;
-  solver::SharedPages::for_each_difference(a.pages, b.pages, [&](std::int64_t page) {
+  SharedPages::for_each_difference(a.pages, b.pages, [&](std::int64_t page) {
     pages += (a.pages.is_stored(page) ? 1 : 0) + (b.pages.is_stored(page) ? 1 : 0);
   });
   return pages * a.layout.voxels_per_page() * static_cast<std::int64_t>(sizeof(float));

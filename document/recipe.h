@@ -61,7 +61,7 @@ struct RecipeSource {
 // The executor: the same bits come from the same one with the same pages.
 struct RecipeExecutor {
   std::string name;  // as Executor::name()
-  Index3 page_shape = solver::kDefaultPageShape;
+  Index3 page_shape = kDefaultPageShape;
   bool skip_quiet_pages = true;
   bool operator==(const RecipeExecutor&) const = default;
 };

@@ -102,7 +102,7 @@ std::shared_ptr<const solver::Field> read_field(const JsonField& field) {
   const Index3 shape = field.at("page_shape").index(1, 64);
   if (field.good() && !is_page_shape(shape)) field.at("page_shape").wrong("no pages have that shape");
   if (!field.good()) return nullptr;
-  const solver::PageLayout layout(geometry.size, shape);
+  const PageLayout layout(geometry.size, shape);
   const auto resident = field.at("resident_pages").integer(0, layout.page_count());
   auto table = read_numbers<std::int32_t>(field.at("table"), static_cast<std::size_t>(layout.page_count()));
   auto pages =

@@ -50,11 +50,11 @@ class LabelStatistics {
  public:
   // By id (256 entries). The labels must be on the volume's grid.
   std::vector<RegionStatistics> measure(const std::shared_ptr<const Volume>& volume,
-                                        const SharedSlices& labels);
+                                        const PagedBytes& labels);
 
  private:
   std::shared_ptr<const Volume> volume_;  // null: nothing was measured
-  SharedSlices measured_;
+  PagedBytes measured_;
   std::vector<ValueSums> sums_;  // of 0, nothing
 };
 
@@ -67,11 +67,11 @@ class InsideStatistics {
 
  private:
   void begin(const std::shared_ptr<const Volume>& volume, const solver::Field& phi);
-  [[nodiscard]] ValueSums sums_of(const solver::SharedPages& pages, std::int64_t page) const;
+  [[nodiscard]] ValueSums sums_of(const SharedPages& pages, std::int64_t page) const;
 
   std::shared_ptr<const Volume> volume_;  // null: nothing was measured
-  solver::PageLayout layout_;
-  solver::SharedPages measured_;
+  PageLayout layout_;
+  SharedPages measured_;
   ValueSums sums_;
 };
 

@@ -27,7 +27,7 @@ Result<imaging::Segments> result_segments(const SessionContents& contents, Resul
   if (content == ResultContent::visible_labels) {
     std::erase_if(wanted, [](const Label& label) { return !label.visible; });
   }
-  const SharedSlices none(contents.geometry.size);
+  const PagedBytes none(contents.geometry.size);
   imaging::Segments segments =
       segments_of(contents.geometry, wanted, contents.label_voxels ? *contents.label_voxels : none);
   std::erase_if(segments.list, [](const imaging::Segment& segment) { return segment.slices.empty(); });

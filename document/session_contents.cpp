@@ -30,8 +30,8 @@ Result<SessionContents> snapshot_of(Case& document) {
   source.policy = contents.origin.policy;
   contents.phi = std::move(*phi);
   contents.labels = document.labels().list();
-  if (const SharedSlices& voxels = document.labels().voxels(); !voxels.empty())
-    contents.label_voxels = std::make_shared<const SharedSlices>(voxels);
+  if (const PagedBytes& voxels = document.labels().voxels(); !voxels.empty())
+    contents.label_voxels = std::make_shared<const PagedBytes>(voxels);
   contents.curve = document.level_set().curve();
   contents.view_state = document.view_state;
   contents.history = document.level_set().saved_history();
@@ -60,7 +60,7 @@ Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
   Case& document = **made;
   Status restored = document.level_set().resume_from(contents.recipe, contents.phi, contents.curve);
   if (!restored) return pass_on(restored);
-  const SharedSlices none(contents.geometry.size);
+  const PagedBytes none(contents.geometry.size);
   restored = document.labels().assign(contents.labels, contents.label_voxels ? *contents.label_voxels : none);
   if (!restored) return pass_on(restored);
   document.view_state = contents.view_state;

@@ -18,7 +18,7 @@ struct SessionContents {
   Recipe recipe;      // with it, parameters, step number and smoothing
   std::shared_ptr<const solver::Field> phi;
   std::vector<Label> labels;
-  std::shared_ptr<const SharedSlices> label_voxels;  // null: no voxel has a label
+  std::shared_ptr<const PagedBytes> label_voxels;  // null: no voxel has a label
   std::shared_ptr<const Mask> truth;  // the known answer, where it is not the study's own; null: none
   Curve curve;
   std::string view_state;

@@ -227,7 +227,7 @@ Result<std::shared_ptr<const solver::Field>> read_phi(ZipReader& archive, const 
   const Index3 shape = field.at("page_shape").index(1, 64);
   if (!is_page_shape(shape)) field.at("page_shape").wrong("no pages have that shape");
   if (!field.good()) return pass_on(field.status());
-  const solver::PageLayout layout(geometry.size, shape);
+  const PageLayout layout(geometry.size, shape);
   const std::int64_t resident = field.at("resident_pages").integer(0, layout.page_count());
   if (!field.good()) return pass_on(field.status());
   auto table = read_numbers<std::int32_t>(archive, kTable, layout.page_count());
@@ -238,17 +238,17 @@ Result<std::shared_ptr<const solver::Field>> read_phi(ZipReader& archive, const 
 }
 
 Status read_label_voxels(ZipReader& archive, SessionContents& contents, const std::string& file) {
-  SharedSlices voxels(contents.geometry.size);
+  PagedBytes voxels(contents.geometry.size);
   if (archive.has(kLabels)) {
     const auto read = read_numbers<std::uint8_t>(archive, kLabels, contents.geometry.voxel_count());
     if (!read) return pass_on(read);
-    voxels = SharedSlices(contents.geometry.size, *read);
+    voxels = PagedBytes(contents.geometry.size, *read);
   }
   Labels trial(contents.geometry);
   if (const Status good = trial.assign(contents.labels, voxels); !good) {
     return fail(ErrorKind::input, "{}: labels: {}", file, good.error().message);
   }
-  if (!voxels.empty()) contents.label_voxels = std::make_shared<const SharedSlices>(std::move(voxels));
+  if (!voxels.empty()) contents.label_voxels = std::make_shared<const PagedBytes>(std::move(voxels));
   return {};
 }
 

@@ -122,7 +122,7 @@ Status CasePainter::prepare(Canvas& canvas, const std::shared_ptr<const Volume>&
   document::LevelSet& level_set = document.level_set();
   if (canvas.renderer && canvas.source != source) canvas = {};
   if (!canvas.renderer) {
-    const solver::PageLayout layout(source->geometry.size, level_set.executor().memory().page_shape);
+    const PageLayout layout(source->geometry.size, level_set.executor().memory().page_shape);
     const auto kind = device_ != nullptr ? engine_.renderer() : renderer::RendererKind::host;
     auto renderer = renderer::make_renderer(kind, device_, source, layout);
     if (!renderer) return pass_on(renderer);

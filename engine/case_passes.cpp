@@ -66,7 +66,7 @@ std::optional<CasePasses::Question> CasePasses::question() {
   if (!found || state.speed_waits) return std::nullopt;
   const Index3 size = proxy_.volume().geometry.size;
   const Index3 voxel(glm::clamp(glm::round(*found), glm::dvec3(0.0), glm::dvec3(size - Index3(1))));
-  const solver::PageLayout layout(size, state.memory.page_shape);
+  const PageLayout layout(size, state.memory.page_shape);
   return Question{layout.translate(voxel).page,
                   state.step,
                   state.edits,

@@ -327,11 +327,11 @@ void CaseRunner::post_history() {
       [self = shared_from_this()](const Error& error) { self->report_failure(error); });
 }
 
-std::shared_ptr<const SharedSlices> CaseRunner::label_voxels() {
+std::shared_ptr<const PagedBytes> CaseRunner::label_voxels() {
   const document::Labels& labels = case_->labels();
   if (labels.voxels().empty()) return nullptr;
   if (!label_voxels_ || label_revision_ != labels.revision()) {
-    label_voxels_ = std::make_shared<const SharedSlices>(labels.voxels());
+    label_voxels_ = std::make_shared<const PagedBytes>(labels.voxels());
     label_revision_ = labels.revision();
   }
   return label_voxels_;

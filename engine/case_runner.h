@@ -122,7 +122,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void post_history();
   void end_run();
   void report_end_of_run();
-  std::shared_ptr<const SharedSlices> label_voxels();
+  std::shared_ptr<const PagedBytes> label_voxels();
   Status follow_graphics();
   [[nodiscard]] solver::ExecutorOptions executor_options() const;
 
@@ -154,7 +154,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   std::optional<Run> run_;        // that is under way; `steps` are left of it
   std::optional<Run> ended_run_;  // to be reported; `steps` were not computed
 
-  std::shared_ptr<const SharedSlices> label_voxels_;  // as of label_revision_
+  std::shared_ptr<const PagedBytes> label_voxels_;  // as of label_revision_
   std::uint64_t label_revision_ = 0;
   std::optional<document::Acceptance> acceptance_;
   std::uint64_t acceptance_position_ = 0;  // in the history, right after it

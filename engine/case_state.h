@@ -65,7 +65,7 @@ struct CaseState {
   document::RegionStatistics inside;  // of the volume's values, under the surface; measured when it rests
   std::vector<document::Label> labels;
   std::vector<document::RegionStatistics> label_statistics;  // in the order of `labels`
-  std::shared_ptr<const SharedSlices> label_voxels;          // null while there are none
+  std::shared_ptr<const PagedBytes> label_voxels;            // null while there are none
   std::optional<document::Acceptance> acceptance;            // while it is the last change
   QString undo_text;                                         // which change undo takes back; empty: none
   QString redo_text;

@@ -50,7 +50,7 @@ Status write_film(const document::Recipe& recipe, const std::shared_ptr<const Vo
   }
   auto film = imaging::GifFile::create(size.width, size.height, kPictureSeconds, file);
   if (!film) return pass_on(film);
-  const solver::PageLayout layout(volume->geometry.size, solver::kDefaultPageShape);
+  const PageLayout layout(volume->geometry.size, kDefaultPageShape);
   auto renderer = renderer::make_renderer(renderer::RendererKind::host, nullptr, volume, layout);
   if (!renderer) return pass_on(renderer);
   Camera camera(std::move(*renderer), view, size, *film);

@@ -11,31 +11,16 @@ namespace {
 
 using Preview = std::shared_ptr<const LabelPreview>;
 
-// How many voxels have one of the labels.
-std::int64_t count(const SharedSlices& voxels, const std::array<bool, 256>& labels) {
+// How many voxels have one of the labels, of which 0 is none.
+std::int64_t count(const PagedBytes& voxels, const std::array<bool, 256>& labels) {
   std::int64_t count = 0;
-  for (std::int64_t k = 0; k < voxels.size().z; ++k) {
-    const auto slice = voxels.slice(k);
-    count += std::count_if(slice.begin(), slice.end(), [&](std::uint8_t id) { return labels[id]; });
+  for (std::int64_t page = 0; page < voxels.layout().page_count(); ++page) {
+    const std::uint8_t* const values = voxels.page(page);
+    if (values == nullptr) continue;
+    count += std::count_if(values, values + voxels.layout().voxels_per_page(),
+                           [&](std::uint8_t id) { return labels[id]; });
   }
   return count;
-}
-
-// Null: no voxel has a label before.
-bool changes(const SharedSlices* before, const SharedSlices& after) {
-  const SharedSlices none(after.size());
-  const SharedSlices& then = before ? *before : none;
-  const auto differ = [&](std::int64_t k) {
-    const auto a = then.slice(k);
-    const auto b = after.slice(k);
-    if (a.empty() || b.empty()) {
-      const auto& there = a.empty() ? b : a;
-      return std::any_of(there.begin(), there.end(), [](std::uint8_t id) { return id != 0; });
-    }
-    return !std::equal(a.begin(), a.end(), b.begin());
-  };
-  const auto slices = after.differing_slices(then);
-  return std::any_of(slices.begin(), slices.end(), differ);
 }
 
 Result<Preview> computed(LabelPreview preview, const Progress& progress) {
@@ -44,7 +29,8 @@ Result<Preview> computed(LabelPreview preview, const Progress& progress) {
   if (!regions) return pass_on(regions);
   preview.regions = std::move(*regions);
   auto after = std::make_shared<document::Labels>(from.geometry);
-  TIDEMARK_TRY(after->assign(from.list, from.voxels ? *from.voxels : SharedSlices(from.geometry.size)));
+  const PagedBytes before = from.voxels ? *from.voxels : PagedBytes(from.geometry.size);
+  TIDEMARK_TRY(after->assign(from.list, before));
   const auto accepted = after->finish(preview.regions, preview.take);
   if (!accepted) return pass_on(accepted);
   std::array<bool, 256> changed{};
@@ -52,7 +38,7 @@ Result<Preview> computed(LabelPreview preview, const Progress& progress) {
   const double voxel_ml = from.geometry.voxel_volume_ml();
   if (from.voxels) preview.before_ml = static_cast<double>(count(*from.voxels, changed)) * voxel_ml;
   preview.after_ml = static_cast<double>(accepted->taken) * voxel_ml;
-  preview.changes = changes(preview.from.voxels.get(), after->voxels());
+  preview.changes = after->voxels() != before;
   preview.after = std::move(after);
   return std::make_shared<const LabelPreview>(std::move(preview));
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/paging/page_rows.h"
 #include "engine/study_picture.h"
-#include "solver/paging/page_rows.h"
 
 namespace tidemark::engine {
 namespace {
@@ -17,18 +17,17 @@ constexpr QRgb kOutline = qRgb(255, 214, 0);
 // Calls visit(x, y, z) for every voxel inside.
 template <class Visit>
 void for_each_inside(const solver::Field& phi, const Visit& visit) {
-  const solver::PageLayout& layout = phi.layout;
+  const PageLayout& layout = phi.layout;
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     if (phi.pages.kind(page) == solver::Field::Kind::outside) continue;
     const float* const values = phi.pages.values(page);
-    solver::for_each_row(phi.geometry, layout, page,
-                         [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
-                           const Index3 first = phi.geometry.voxel_at(offset);
-                           for (std::int64_t i = 0; i < length; ++i) {
-                             if (values == nullptr || values[index + i] > 0.0F)
-                               visit(first.x + i, first.y, first.z);
-                           }
-                         });
+    for_each_row(phi.geometry, layout, page,
+                 [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+                   const Index3 first = phi.geometry.voxel_at(offset);
+                   for (std::int64_t i = 0; i < length; ++i) {
+                     if (values == nullptr || values[index + i] > 0.0F) visit(first.x + i, first.y, first.z);
+                   }
+                 });
   }
 }
 

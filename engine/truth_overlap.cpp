@@ -1,6 +1,6 @@
 #include "engine/truth_overlap.h"
 
-#include "solver/paging/page_rows.h"
+#include "core/paging/page_rows.h"
 
 namespace tidemark::engine {
 
@@ -13,38 +13,38 @@ void TruthOverlap::begin(const solver::Field& phi) {
   in_truth_ = 0;
   for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
     std::int64_t& count = in_page_[static_cast<std::size_t>(page)];
-    solver::for_each_row(truth_->geometry, layout_, page,
-                         [&](std::int64_t offset, std::int64_t length, std::int64_t) {
-                           for (std::int64_t i = 0; i < length; ++i)
-                             count += truth_->voxels[static_cast<std::size_t>(offset + i)] != 0 ? 1 : 0;
-                         });
+    for_each_row(truth_->geometry, layout_, page,
+                 [&](std::int64_t offset, std::int64_t length, std::int64_t) {
+                   for (std::int64_t i = 0; i < length; ++i)
+                     count += truth_->voxels[static_cast<std::size_t>(offset + i)] != 0 ? 1 : 0;
+                 });
     in_truth_ += count;
   }
 }
 
-TruthOverlap::Counts TruthOverlap::count(const solver::SharedPages& pages, std::int64_t page) const {
+TruthOverlap::Counts TruthOverlap::count(const SharedPages& pages, std::int64_t page) const {
   const float* const values = pages.values(page);
   if (values == nullptr) {
-    if (pages.kind(page) == solver::SharedPages::Kind::outside) return {};
+    if (pages.kind(page) == SharedPages::Kind::outside) return {};
     const Index3 valid = layout_.valid_shape(page);
     return {valid.x * valid.y * valid.z, in_page_[static_cast<std::size_t>(page)]};
   }
   Counts counts;
-  solver::for_each_row(truth_->geometry, layout_, page,
-                       [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
-                         const std::uint8_t* truth = truth_->voxels.data() + offset;
-                         for (std::int64_t i = 0; i < length; ++i) {
-                           const std::int64_t is_inside = values[index + i] > 0.0F ? 1 : 0;
-                           counts.inside += is_inside;
-                           counts.common += truth[i] != 0 ? is_inside : 0;
-                         }
-                       });
+  for_each_row(truth_->geometry, layout_, page,
+               [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+                 const std::uint8_t* truth = truth_->voxels.data() + offset;
+                 for (std::int64_t i = 0; i < length; ++i) {
+                   const std::int64_t is_inside = values[index + i] > 0.0F ? 1 : 0;
+                   counts.inside += is_inside;
+                   counts.common += truth[i] != 0 ? is_inside : 0;
+                 }
+               });
   return counts;
 }
 
 double TruthOverlap::dice(const solver::Field& phi) {
   if (layout_ != phi.layout) begin(phi);
-  solver::SharedPages::for_each_difference(counted_, phi.pages, [&](std::int64_t page) {
+  SharedPages::for_each_difference(counted_, phi.pages, [&](std::int64_t page) {
     const Counts before = count(counted_, page);
     const Counts now = count(phi.pages, page);
     counts_.inside += now.inside - before.inside;

@@ -23,13 +23,13 @@ class TruthOverlap {
     std::int64_t common = 0;  // of them in the truth
   };
   void begin(const solver::Field& phi);
-  [[nodiscard]] Counts count(const solver::SharedPages& pages, std::int64_t page) const;
+  [[nodiscard]] Counts count(const SharedPages& pages, std::int64_t page) const;
 
   std::shared_ptr<const Mask> truth_;
-  solver::PageLayout layout_;          // as of the next two
+  PageLayout layout_;                  // as of the next two
   std::vector<std::int64_t> in_page_;  // voxels of the truth
   std::int64_t in_truth_ = 0;
-  solver::SharedPages counted_;  // the last phi, and what it has
+  SharedPages counted_;  // the last phi, and what it has
   Counts counts_;
 };
 

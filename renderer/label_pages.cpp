@@ -27,8 +27,7 @@ std::vector<LabelColour> first_label_colours() {
   return colours;
 }
 
-std::vector<std::int64_t> pages_around(const solver::PageLayout& layout, const VoxelRange& box,
-                                       std::int64_t reach) {
+std::vector<std::int64_t> pages_around(const PageLayout& layout, const VoxelRange& box, std::int64_t reach) {
   std::vector<std::int64_t> pages;
   if (box.empty()) return pages;
   const VoxelRange around = box.widened(Index3(reach), layout.domain_size());
@@ -42,12 +41,12 @@ std::vector<std::int64_t> pages_around(const solver::PageLayout& layout, const V
   return pages;
 }
 
-LabelPages::LabelPages(const solver::PageLayout& layout) : layout_(layout) {
+LabelPages::LabelPages(const PageLayout& layout) : layout_(layout) {
   visible_.set();
   visible_.reset(0);
 }
 
-void LabelPages::set_voxels(const SharedSlices& voxels, const VoxelRange& changed) {
+void LabelPages::set_voxels(const PagedBytes& voxels, const VoxelRange& changed) {
   const Index3 size = layout_.domain_size();
   if (sets_.empty()) sets_.assign(static_cast<std::size_t>(layout_.page_count()), LabelSet(1));
   const auto collect = [&](std::int64_t page) {
@@ -55,19 +54,20 @@ void LabelPages::set_voxels(const SharedSlices& voxels, const VoxelRange& change
     const Index3 low = glm::max(first - Index3(kFiltered), Index3(0));
     const Index3 high =
         glm::min(first + layout_.valid_shape(page) - Index3(1) + Index3(kFiltered), size - Index3(1));
-    LabelSet set;
-    int last = -1;
-    for (std::int64_t z = low.z; z <= high.z; ++z) {
-      if (voxels.slice(z).empty()) set.set(0);
-      for (std::int64_t y = low.y; y <= high.y && !voxels.slice(z).empty(); ++y) {
-        const std::uint8_t* row = voxels.row(y, z).data();
-        for (std::int64_t x = low.x; x <= high.x; ++x) {
-          if (row[x] != last) set.set(row[x]);
-          last = row[x];
-        }
-      }
+    const Index3 shape = high - low + Index3(1);
+    LabelSet& set = sets_[static_cast<std::size_t>(page)];
+    set.reset();
+    if (const auto one = voxels.even_value(low, shape)) {
+      set.set(*one);
+      return;
     }
-    sets_[static_cast<std::size_t>(page)] = set;
+    std::vector<std::uint8_t> labels(static_cast<std::size_t>(shape.x * shape.y * shape.z));
+    voxels.read(low, shape, labels.data());
+    int last = -1;
+    for (const std::uint8_t label : labels) {
+      if (label != last) set.set(label);
+      last = label;
+    }
   };
   const std::vector<std::int64_t> pages = pages_around(layout_, changed, kFiltered);
   ThreadPool pool;

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "core/paged_bytes.h"
+#include "core/paging/page_layout.h"
 #include "core/region.h"
-#include "core/shared_slices.h"
 #include "renderer/renderer.h"
-#include "solver/paging/page_layout.h"
 
 namespace tidemark::renderer {
 
@@ -17,10 +17,10 @@ class LabelPages {
  public:
   LabelPages() = default;
   // At first no voxel has a label, and all labels are seen.
-  explicit LabelPages(const solver::PageLayout& layout);
+  explicit LabelPages(const PageLayout& layout);
 
   // `changed` is around all voxels that have another label than before.
-  void set_voxels(const SharedSlices& voxels, const VoxelRange& changed);
+  void set_voxels(const PagedBytes& voxels, const VoxelRange& changed);
   // Of the labels from 0 on.
   void set_colours(std::span<const LabelColour> colours);
 
@@ -40,7 +40,7 @@ class LabelPages {
   using LabelSet = std::bitset<kLabels>;
   void update();
 
-  solver::PageLayout layout_;
+  PageLayout layout_;
   LabelSet visible_;            // without 0
   std::vector<LabelSet> sets_;  // by virtual page: what is in it and one voxel around it
   std::vector<std::int32_t> pages_;
@@ -48,7 +48,7 @@ class LabelPages {
 };
 
 // The pages that have a voxel of the box, or one at most `reach` from it along each axis.
-[[nodiscard]] std::vector<std::int64_t> pages_around(const solver::PageLayout& layout, const VoxelRange& box,
+[[nodiscard]] std::vector<std::int64_t> pages_around(const PageLayout& layout, const VoxelRange& box,
                                                      std::int64_t reach);
 
 // The labels' first colours (core/label_colour.h).

@@ -10,7 +10,7 @@ namespace {
 
 // Least and greatest value in each page and one voxel around it: what filtering reaches from inside the page.
 template <class Stored>
-std::vector<glm::vec2> page_ranges(const TypedVolume<Stored>& source, const solver::PageLayout& layout) {
+std::vector<glm::vec2> page_ranges(const TypedVolume<Stored>& source, const PageLayout& layout) {
   ThreadPool pool;
   std::vector<glm::vec2> ranges(static_cast<std::size_t>(layout.page_count()));
   const auto measure = [&](std::int64_t page) -> glm::vec2 {

@@ -6,15 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "core/paging/page_layout.h"
 #include "renderer/views.h"
-#include "solver/paging/page_layout.h"
 
 namespace tidemark::renderer {
 
 class PageOpacity {
  public:
   PageOpacity() = default;
-  explicit PageOpacity(const solver::PageLayout& layout) : layout_(layout) {}
+  explicit PageOpacity(const PageLayout& layout) : layout_(layout) {}
 
   // Works out pages() for that function, in the source's own units. Returns false when they are as they were.
   bool set_transfer_function(const Volume& source, const TransferFunction& function, Region region,
@@ -32,7 +32,7 @@ class PageOpacity {
     bool operator==(const Shown&) const = default;
   };
 
-  solver::PageLayout layout_;
+  PageLayout layout_;
   std::vector<glm::vec2> ranges_;  // of the values in each page; empty until a transfer function needs them
   std::vector<glm::vec4> pages_;
   std::optional<Shown> shown_;

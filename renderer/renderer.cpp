@@ -22,7 +22,7 @@ RendererKind chosen_kind(RendererKind asked, const gpu::Device* device) {
 
 Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, std::shared_ptr<gpu::Device> device,
                                                 std::shared_ptr<const Volume> source,
-                                                const solver::PageLayout& layout, int threads) {
+                                                const PageLayout& layout, int threads) {
   if (chosen_kind(kind, device.get()) == RendererKind::host) {
     return HostRenderer::create(std::move(source), layout, threads);
   }

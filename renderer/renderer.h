@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/paged_bytes.h"
 #include "core/progress.h"
-#include "core/shared_slices.h"
 #include "renderer/picture.h"
 #include "renderer/views.h"
 #include "solver/executor.h"
@@ -65,7 +65,7 @@ class Renderer {
   virtual Status set_constraints(const solver::Constraints* constraints) = 0;
   // A label for each voxel, 0 for none. Takes time by the slices that lie elsewhere than before. Fails
   // (ErrorKind::usage) when they are on another grid, (ErrorKind::capability) when memory is short.
-  virtual Status set_labels(const SharedSlices& labels) = 0;
+  virtual Status set_labels(const PagedBytes& labels) = 0;
   // Of the labels from 0 on; at first all are seen, with label_colour(). Fails (ErrorKind::usage) on more
   // than kLabels.
   virtual Status set_label_colours(std::span<const LabelColour> colours) = 0;
@@ -98,7 +98,7 @@ RendererKind chosen_kind(RendererKind asked, const gpu::Device* device);
 // (ErrorKind::capability) when the driver lacks what is needed.
 Result<std::unique_ptr<Renderer>> make_renderer(RendererKind kind, std::shared_ptr<gpu::Device> device,
                                                 std::shared_ptr<const Volume> source,
-                                                const solver::PageLayout& layout, int threads = 0);
+                                                const PageLayout& layout, int threads = 0);
 
 // Shows a copy of what an executor has now: phi, its parameters, and what drives and holds the surface. Fails
 // as snapshot(), set_phi() and set_constraints() do.

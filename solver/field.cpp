@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "core/out_of_memory.h"
-#include "solver/paging/page_rows.h"
+#include "core/paging/page_rows.h"
 
 namespace tidemark::solver {
 namespace {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "core/paging/page_layout.h"
+#include "core/paging/shared_pages.h"
 #include "core/volume.h"
-#include "solver/paging/page_layout.h"
-#include "solver/paging/shared_pages.h"
 
 namespace tidemark::solver {
 

@@ -130,7 +130,7 @@ Result<Scene> make_scene(const RenderOptions& options, Views views, Console& con
   if (!options.labels.empty()) {
     const auto labels = load_labels(options.labels, scene.source->geometry, console);
     if (!labels) return pass_on(labels);
-    TIDEMARK_TRY(scene.renderer->set_labels(SharedSlices(scene.source->geometry.size, *labels)));
+    TIDEMARK_TRY(scene.renderer->set_labels(PagedBytes(scene.source->geometry.size, *labels)));
   }
   place(scene, options, *phi);
   return scene;

@@ -67,7 +67,7 @@ document::LabelVoxels labelled_volume() {
       }
     }
   }
-  volume.voxels = std::make_shared<const SharedSlices>(size, voxels);
+  volume.voxels = std::make_shared<const PagedBytes>(size, voxels);
   return volume;
 }
 
@@ -117,7 +117,7 @@ void time_dabs() {
   source.voxels = std::vector<std::int16_t>(static_cast<std::size_t>(from.geometry.voxel_count()));
   const auto volume = std::make_shared<const Volume>(std::move(source));
   document::LabelStatistics statistics;
-  renderer::LabelVolume shown(solver::PageLayout(from.geometry.size, solver::kDefaultPageShape));
+  renderer::LabelVolume shown(PageLayout(from.geometry.size, kDefaultPageShape));
   const auto show = [&] {
     shown.set_voxels(labels.voxels());
     shown.prepare_borders();
@@ -153,7 +153,7 @@ void time_dabs() {
     if (!labels.brush({1, {}, dab}, document::Labels::Stroke::adds)) std::exit(1);
     const double brush = ms(brushing);
     const Watch publishing;
-    const auto published = std::make_shared<const SharedSlices>(labels.voxels());
+    const auto published = std::make_shared<const PagedBytes>(labels.voxels());
     const double publish = ms(publishing);
     const Watch measuring;
     statistics.measure(volume, *published);

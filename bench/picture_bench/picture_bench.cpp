@@ -72,7 +72,7 @@ double processor_seconds() {
 class Bench {
  public:
   explicit Bench(const Options& options) : options_(options), source_(study_of(options)) {
-    const solver::PageLayout layout(source_->geometry.size, solver::kDefaultPageShape);
+    const PageLayout layout(source_->geometry.size, kDefaultPageShape);
     const std::int64_t before = peak_bytes();
     const Stopwatch watch;
     host_ = expect(renderer::make_renderer(renderer::RendererKind::host, nullptr, source_, layout));

@@ -45,9 +45,14 @@ std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const Geometry& geom
   return slices;
 }
 
-std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const SharedSlices& voxels, std::uint8_t id) {
+std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const PagedBytes& voxels, std::uint8_t id) {
   std::map<std::int64_t, std::vector<std::uint8_t>> slices;
-  for (std::int64_t k = 0; k < voxels.size().z; ++k) add_slice(slices, k, voxels.slice(k), id);
+  const Index3 shape(voxels.size().x, voxels.size().y, 1);
+  std::vector<std::uint8_t> slice(static_cast<std::size_t>(shape.x * shape.y));
+  for (std::int64_t k = 0; k < voxels.size().z; ++k) {
+    voxels.read({0, 0, k}, shape, slice.data());
+    add_slice(slices, k, slice, id);
+  }
   return slices;
 }
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/paged_bytes.h"
 #include "core/region.h"
-#include "core/shared_slices.h"
 #include "core/volume.h"
 #include "imaging/results/segment_meaning.h"
 
@@ -40,7 +40,7 @@ struct Segments {
 // The slices of the voxels that hold `id` (a mask's hold 1). `voxels` are in voxel order.
 [[nodiscard]] std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(
     const Geometry& geometry, std::span<const std::uint8_t> voxels, std::uint8_t id = 1);
-[[nodiscard]] std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const SharedSlices& voxels,
+[[nodiscard]] std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const PagedBytes& voxels,
                                                                           std::uint8_t id);
 
 // One segment of that mask.

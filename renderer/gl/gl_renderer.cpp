@@ -61,7 +61,7 @@ GlRenderer::GlRenderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<cons
 
 Result<std::unique_ptr<GlRenderer>> GlRenderer::create(std::shared_ptr<gpu::Device> device,
                                                        std::shared_ptr<const Volume> source,
-                                                       const solver::PageLayout& layout,
+                                                       const PageLayout& layout,
                                                        std::int64_t largest_volume) {
   if (layout.domain_size() != source->geometry.size) {
     return fail(ErrorKind::usage, "the pages are not those of the volume");
@@ -142,7 +142,7 @@ Status GlRenderer::set_constraints(const solver::Constraints* constraints) {
   return device_->check("showing walls and anchors");
 }
 
-Status GlRenderer::set_labels(const SharedSlices& labels) {
+Status GlRenderer::set_labels(const PagedBytes& labels) {
   if (labels.size() != source_->geometry.size)
     return fail(ErrorKind::usage, "labels are on another grid than the volume");
   TIDEMARK_TRY(device_->make_current());

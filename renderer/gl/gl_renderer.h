@@ -30,7 +30,7 @@ class GlRenderer final : public Renderer {
   // slices. Fails (ErrorKind::capability) where the driver lacks what is needed.
   static Result<std::unique_ptr<GlRenderer>> create(std::shared_ptr<gpu::Device> device,
                                                     std::shared_ptr<const Volume> source,
-                                                    const solver::PageLayout& layout,
+                                                    const PageLayout& layout,
                                                     std::int64_t largest_volume = 1 << 30);
 
   [[nodiscard]] std::string_view name() const override { return "gl"; }
@@ -49,7 +49,7 @@ class GlRenderer final : public Renderer {
     maps_.set_change(std::move(change));
   }
   Status set_constraints(const solver::Constraints* constraints) override;
-  Status set_labels(const SharedSlices& labels) override;
+  Status set_labels(const PagedBytes& labels) override;
   Status set_label_colours(std::span<const LabelColour> colours) override;
 
   using Renderer::draw;

@@ -7,32 +7,23 @@
 namespace tidemark::renderer {
 namespace {
 
-Result<gpu::Texture3D> texture_of(gpu::Device& device, gpu::TexelFormat format, const SharedSlices& values,
+Result<gpu::Texture3D> texture_of(gpu::Device& device, gpu::TexelFormat format, const PagedBytes& values,
                                   std::string_view label) {
   const std::vector<std::uint8_t> voxels = values.voxels();
   return gpu::Texture3D::create(device, format, values.size(), std::as_bytes(std::span(voxels)), label);
 }
 
-void upload(gpu::Texture3D& texture, const SharedSlices& values, const VoxelRange& box) {
+void upload(gpu::Texture3D& texture, const PagedBytes& values, const VoxelRange& box) {
   if (box.empty()) return;
   const Index3 shape = box.high - box.low;
-  const std::int64_t width = values.size().x;
-  std::vector<std::uint8_t> slice(static_cast<std::size_t>(width * values.size().y));
-  std::vector<std::uint8_t> packed;
-  packed.reserve(static_cast<std::size_t>(shape.x * shape.y * shape.z));
-  for (std::int64_t k = box.low.z; k < box.high.z; ++k) {
-    values.read(k, slice);
-    for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
-      const auto row = slice.begin() + width * j;
-      packed.insert(packed.end(), row + box.low.x, row + box.high.x);
-    }
-  }
+  std::vector<std::uint8_t> packed(static_cast<std::size_t>(shape.x * shape.y * shape.z));
+  values.read(box.low, shape, packed.data());
   texture.upload(box.low, shape, std::as_bytes(std::span(packed)));
 }
 
 }  // namespace
 
-Result<LabelPicture> LabelPicture::create(gpu::Device& device, const solver::PageLayout& layout) {
+Result<LabelPicture> LabelPicture::create(gpu::Device& device, const PageLayout& layout) {
   LabelPicture picture;
   picture.volume_ = LabelVolume(layout);
   const std::vector<std::uint8_t> none(1);
@@ -59,7 +50,7 @@ Result<LabelPicture> LabelPicture::create(gpu::Device& device, const solver::Pag
   return picture;
 }
 
-Status LabelPicture::set_voxels(gpu::Device& device, const SharedSlices& voxels) {
+Status LabelPicture::set_voxels(gpu::Device& device, const PagedBytes& voxels) {
   if (!has_voxels_ && voxels.empty()) return {};
   if (!has_voxels_) {
     auto texture = texture_of(device, gpu::TexelFormat::r8ui, voxels, "labels");

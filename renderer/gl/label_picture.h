@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "core/paging/page_layout.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
 #include "renderer/label_volume.h"
-#include "solver/paging/page_layout.h"
 
 namespace tidemark::renderer {
 
@@ -17,10 +17,10 @@ class LabelPicture {
  public:
   LabelPicture() = default;
   // At first no voxel has a label, and all labels are seen in their first colours (core/label_colour.h).
-  static Result<LabelPicture> create(gpu::Device& device, const solver::PageLayout& layout);
+  static Result<LabelPicture> create(gpu::Device& device, const PageLayout& layout);
 
   // Fails (ErrorKind::capability) when memory is short.
-  Status set_voxels(gpu::Device& device, const SharedSlices& voxels);
+  Status set_voxels(gpu::Device& device, const PagedBytes& voxels);
   // Of the labels from 0 on.
   void set_colours(std::span<const LabelColour> colours);
 

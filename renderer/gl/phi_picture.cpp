@@ -33,7 +33,7 @@ Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::in
   return array;
 }
 
-Result<PhiPicture> PhiPicture::create(gpu::Device& device, const solver::PageLayout& layout, double band) {
+Result<PhiPicture> PhiPicture::create(gpu::Device& device, const PageLayout& layout, double band) {
   PhiPicture picture;
   const solver::PackedLayout packed(layout, device.capabilities());
   auto field = solver::PackedField::create(device, packed, without_power_of_two(packed, solver::kFirstPage),
@@ -42,7 +42,7 @@ Result<PhiPicture> PhiPicture::create(gpu::Device& device, const solver::PageLay
   picture.field_ = std::move(*field);
   picture.pages_ = solver::PagedMemory<3>(layout, solver::kUnlimited);
   picture.band_ = band;
-  picture.shown_ = solver::SharedPages(layout.page_count(), layout.voxels_per_page());
+  picture.shown_ = SharedPages(layout.page_count(), layout.voxels_per_page());
   auto table = Array::create(device, layout.page_count(), gpu::TexelFormat::r32i, "page table");
   if (!table) return pass_on(table);
   picture.page_table_ = std::move(*table);
@@ -75,7 +75,7 @@ std::vector<PhiPicture::Change> PhiPicture::follow(const solver::Field& phi) {
     }
   };
   if (shown_) {
-    solver::SharedPages::for_each_difference(*shown_, phi.pages, look_at);
+    SharedPages::for_each_difference(*shown_, phi.pages, look_at);
   } else {
     for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) look_at(page);
   }

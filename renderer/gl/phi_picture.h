@@ -20,7 +20,7 @@ namespace tidemark::renderer {
 class PhiPicture {
  public:
   PhiPicture() = default;
-  static Result<PhiPicture> create(gpu::Device& device, const solver::PageLayout& layout, double band);
+  static Result<PhiPicture> create(gpu::Device& device, const PageLayout& layout, double band);
 
   // `phi` has the layout and the band of create(). `quiet`: virtual pages that are not computed at present.
   // Fails (ErrorKind::capability) when memory is short; the picture of phi is then undefined until the
@@ -65,7 +65,7 @@ class PhiPicture {
 
   solver::PagedMemory<3> pages_;
   double band_ = 0.0;
-  std::optional<solver::SharedPages> shown_;  // what is on the GPU; unset: that is not known
+  std::optional<SharedPages> shown_;  // what is on the GPU; unset: that is not known
   solver::PackedField field_;
   Array page_table_;
   Array page_flags_;

@@ -21,13 +21,13 @@ void SliceBounds::Rect::include(const Rect& other) {
   high_v = std::max(high_v, other.high_v);
 }
 
-SliceBounds::SliceBounds(const SliceAxis& axis, const solver::PageLayout& pages)
+SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages)
     : axis_(axis),
       pages_(pages),
       layers_(static_cast<std::size_t>(pages.pages()[axis.along]),
               Rect{0, 0, pages.pages()[axis.u()] - 1, pages.pages()[axis.v()] - 1}) {}
 
-SliceBounds::SliceBounds(const SliceAxis& axis, const solver::PageLayout& pages, const VolumeView& view,
+SliceBounds::SliceBounds(const SliceAxis& axis, const PageLayout& pages, const VolumeView& view,
                          const Geometry& geometry, std::span<const solver::PhysicalPage> table,
                          const PageContents& contents)
     : axis_(axis), pages_(pages), layers_(static_cast<std::size_t>(pages.pages()[axis.along])) {

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "core/paging/page_layout.h"
 #include "renderer/gl/slice_axis.h"
 #include "renderer/picture.h"
 #include "renderer/views.h"
-#include "solver/paging/page_layout.h"
 #include "solver/paging/page_table.h"
 
 namespace tidemark::renderer {
@@ -17,7 +17,7 @@ namespace tidemark::renderer {
 class SliceBounds {
  public:
   // All of the volume.
-  SliceBounds(const SliceAxis& axis, const solver::PageLayout& pages);
+  SliceBounds(const SliceAxis& axis, const PageLayout& pages);
   // What else than phi shows in each page.
   struct PageContents {
     std::span<const glm::vec4> opacity;    // SourcePicture::page_opacities()
@@ -25,7 +25,7 @@ class SliceBounds {
   };
   // Resident pages when the view has a surface, pages where its source or labels show, and those that the
   // clip plane's picture passes, less what the plane hides. `table`: the physical page of each virtual one.
-  SliceBounds(const SliceAxis& axis, const solver::PageLayout& pages, const VolumeView& view,
+  SliceBounds(const SliceAxis& axis, const PageLayout& pages, const VolumeView& view,
               const Geometry& geometry, std::span<const solver::PhysicalPage> table,
               const PageContents& contents);
 
@@ -54,7 +54,7 @@ class SliceBounds {
   }
 
   SliceAxis axis_;
-  solver::PageLayout pages_;
+  PageLayout pages_;
   std::vector<Rect> layers_;
 };
 

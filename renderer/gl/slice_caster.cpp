@@ -18,7 +18,7 @@ glm::dvec3 direction_in_voxels(const VolumeView& view, const Geometry& geometry)
 }
 
 SliceBounds bounds_of(const SliceAxis& axis, const SliceCaster::Scene& scene, const VolumeView& view) {
-  const solver::PageLayout& pages = scene.phi.layout().layout();
+  const PageLayout& pages = scene.phi.layout().layout();
   if (!view.quality.skip_empty) return {axis, pages};
   return {axis, pages, view, scene.source.geometry, scene.table, {scene.page_opacity, scene.page_labels}};
 }

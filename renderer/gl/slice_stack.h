@@ -29,7 +29,7 @@ class SliceStack {
 
  private:
   SliceAxis axis_;
-  solver::PageLayout pages_;
+  PageLayout pages_;
   SlicePair pair_;
   gpu::Program program_;
   gpu::VertexArray vertices_;

@@ -7,7 +7,7 @@
 
 namespace tidemark::renderer {
 Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& source,
-                                            const solver::PageLayout& layout, std::int64_t largest) {
+                                            const PageLayout& layout, std::int64_t largest) {
   SourcePicture picture;
   picture.opacity_ = PageOpacity(layout);
   picture.unit_ = 1.0F / glm::vec3(source.geometry.size);

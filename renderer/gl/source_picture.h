@@ -17,8 +17,8 @@ class SourcePicture {
   SourcePicture() = default;
   // Volumes with more than `largest` voxels along an axis get no texture. Fails (ErrorKind::capability) when
   // memory is short.
-  static Result<SourcePicture> create(gpu::Device& device, const Volume& source,
-                                      const solver::PageLayout& layout, std::int64_t largest);
+  static Result<SourcePicture> create(gpu::Device& device, const Volume& source, const PageLayout& layout,
+                                      std::int64_t largest);
 
   // Whether there is a texture. If not, pictures are made from slices (SourceStack, source_on_plane()).
   [[nodiscard]] bool has_volume() const { return has_volume_; }

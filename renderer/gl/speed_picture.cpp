@@ -40,7 +40,7 @@ Status SpeedPicture::fill_plane(gpu::Device& device, const glm::dmat4& voxel_fro
   for (std::int64_t z = first.z; z <= last.z; ++z) {
     for (std::int64_t y = first.y; y <= last.y; ++y) {
       for (std::int64_t x = first.x; x <= last.x; ++x) {
-        const Index3 voxel = Index3(x, y, z) * solver::kDefaultPageShape;
+        const Index3 voxel = Index3(x, y, z) * kDefaultPageShape;
         const double distance = glm::dot(normal, glm::dvec3(voxel) + 3.5 - middle);
         const glm::dvec3 extent = glm::abs(normal) * kHalfBlock;
         if (std::abs(distance) <= extent.x + extent.y + extent.z) textures_->want({voxel, Index3(1)});
@@ -50,7 +50,7 @@ Status SpeedPicture::fill_plane(gpu::Device& device, const glm::dmat4& voxel_fro
   return textures_->fill(device);
 }
 
-Status SpeedPicture::fill_pages(gpu::Device& device, const solver::PageLayout& layout,
+Status SpeedPicture::fill_pages(gpu::Device& device, const PageLayout& layout,
                                 const std::vector<solver::PhysicalPage>& entries) {
   if (!is_evaluated()) return {};
   TIDEMARK_TRY(make_textures(device));

@@ -14,7 +14,7 @@ namespace tidemark::renderer {
 class SpeedPicture {
  public:
   SpeedPicture() = default;
-  explicit SpeedPicture(Index3 volume_size) : blocks_(volume_size, solver::kDefaultPageShape) {}
+  explicit SpeedPicture(Index3 volume_size) : blocks_(volume_size, kDefaultPageShape) {}
 
   // Null, or a tent: pictures compute D from the source. Memory is taken when a picture first shows it.
   void set_function(std::shared_ptr<const solver::SpeedFunction> function);
@@ -27,7 +27,7 @@ class SpeedPicture {
   // Evaluates D around the plane of a slice picture, or in the resident pages. They fail
   // (ErrorKind::capability) when memory is short. From the view (x and y in -1..1) to voxel coordinates.
   Status fill_plane(gpu::Device& device, const glm::dmat4& voxel_from_view);
-  Status fill_pages(gpu::Device& device, const solver::PageLayout& layout,
+  Status fill_pages(gpu::Device& device, const PageLayout& layout,
                     const std::vector<solver::PhysicalPage>& entries);
 
   void set_uniforms(const gpu::Program& program, int unit) const;
@@ -35,7 +35,7 @@ class SpeedPicture {
  private:
   Status make_textures(gpu::Device& device);
 
-  solver::PageLayout blocks_;
+  PageLayout blocks_;
   std::shared_ptr<const solver::SpeedFunction> function_;
   std::optional<solver::SpeedTextures> textures_;
 };

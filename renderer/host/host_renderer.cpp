@@ -10,14 +10,13 @@
 
 namespace tidemark::renderer {
 
-HostRenderer::HostRenderer(std::shared_ptr<const Volume> source, const solver::PageLayout& layout,
-                           int threads)
+HostRenderer::HostRenderer(std::shared_ptr<const Volume> source, const PageLayout& layout, int threads)
     : volume_(std::move(source)), scene_(volume_, layout), threads_(threads) {
   set_parameters(solver::Parameters());
 }
 
 Result<std::unique_ptr<HostRenderer>> HostRenderer::create(std::shared_ptr<const Volume> source,
-                                                           const solver::PageLayout& layout, int threads) {
+                                                           const PageLayout& layout, int threads) {
   if (layout.domain_size() != source->geometry.size) {
     return fail(ErrorKind::usage, "the pages are not those of the volume");
   }
@@ -75,7 +74,7 @@ Status HostRenderer::set_constraints(const solver::Constraints* constraints) {
   return {};
 }
 
-Status HostRenderer::set_labels(const SharedSlices& labels) {
+Status HostRenderer::set_labels(const PagedBytes& labels) {
   if (labels.size() != volume_->geometry.size)
     return fail(ErrorKind::usage, "labels are on another grid than the volume");
   scene_.labels.set_voxels(labels);

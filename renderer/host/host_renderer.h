@@ -13,7 +13,7 @@ class HostRenderer final : public Renderer {
   // Pictures of level sets on `source` in pages of this layout, whose sides are powers of two. `threads`: 0
   // for all processors of this process. Fails (ErrorKind::usage) when the layout is not of the source.
   static Result<std::unique_ptr<HostRenderer>> create(std::shared_ptr<const Volume> source,
-                                                      const solver::PageLayout& layout, int threads = 0);
+                                                      const PageLayout& layout, int threads = 0);
 
   [[nodiscard]] std::string_view name() const override { return "host"; }
   [[nodiscard]] const Volume& source() const override { return scene_.source.volume(); }
@@ -26,7 +26,7 @@ class HostRenderer final : public Renderer {
   void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) override;
   void set_change(std::shared_ptr<const solver::SpeedFunction> change) override;
   Status set_constraints(const solver::Constraints* constraints) override;
-  Status set_labels(const SharedSlices& labels) override;
+  Status set_labels(const PagedBytes& labels) override;
   Status set_label_colours(std::span<const LabelColour> colours) override;
 
   using Renderer::draw;
@@ -38,7 +38,7 @@ class HostRenderer final : public Renderer {
   Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) override;
 
  private:
-  HostRenderer(std::shared_ptr<const Volume> source, const solver::PageLayout& layout, int threads);
+  HostRenderer(std::shared_ptr<const Volume> source, const PageLayout& layout, int threads);
   [[nodiscard]] VolumeView resolved(const VolumeView& asked);
 
   std::shared_ptr<const Volume> volume_;

@@ -4,7 +4,7 @@
 
 namespace tidemark::renderer {
 
-HostScene::HostScene(std::shared_ptr<const Volume> volume, const solver::PageLayout& layout)
+HostScene::HostScene(std::shared_ptr<const Volume> volume, const PageLayout& layout)
     : source(std::move(volume)),
       phi(layout, solver::default_band(geometry())),
       labels(layout),

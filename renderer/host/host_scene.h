@@ -17,7 +17,7 @@
 namespace tidemark::renderer {
 
 struct HostScene {
-  HostScene(std::shared_ptr<const Volume> volume, const solver::PageLayout& layout);
+  HostScene(std::shared_ptr<const Volume> volume, const PageLayout& layout);
 
   [[nodiscard]] const Geometry& geometry() const { return source.volume().geometry; }
   // The map that a view shows; null: none, or one that is computed from the source.

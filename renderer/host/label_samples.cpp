@@ -5,7 +5,7 @@
 
 namespace tidemark::renderer {
 
-LabelSamples::LabelSamples(const solver::PageLayout& layout)
+LabelSamples::LabelSamples(const PageLayout& layout)
     : size_(layout.domain_size()), volume_(layout), colours_(first_label_colours()) {}
 
 void LabelSamples::set_colours(std::span<const LabelColour> colours) {
@@ -31,7 +31,7 @@ LabelSamples::Cell::Cell(const LabelSamples& samples, glm::vec3 position) {
   const glm::ivec3 low(floor);
   far_share = position - floor;
   ends = {samples.clamped(low), samples.clamped(low + 1)};
-  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = samples.volume_.voxels().at(voxel(i));
+  labels = samples.volume_.voxels().corners(ends[0], ends[1]);
 }
 
 bool LabelSamples::Cell::is_even() const {
@@ -42,10 +42,11 @@ LabelSamples::Share LabelSamples::share_of(int label, const Cell& cell) const {
   const std::array<glm::vec3, 2> weights{1.0F - cell.far_share, cell.far_share};
   Share sum{0.0F, label};
   float most = 0.0F;
+  const std::array<std::uint8_t, 8> shares = volume_.shares().corners(cell.ends[0], cell.ends[1]);
   for (std::size_t i = 0; i < cell.labels.size(); ++i) {
     const float weight = weights[i & 1].x * weights[i >> 1 & 1].y * weights[i >> 2].z;
     const int there = seen(cell.labels[i]);
-    const float own = static_cast<float>(volume_.shares().at(cell.voxel(i))) / 255.0F;
+    const float own = static_cast<float>(shares[i]) / 255.0F;
     // Where two labels meet, what one has not is the other's.
     sum.share += weight * (there == label ? own : 1.0F - own);
     if (there == label) continue;

@@ -12,9 +12,9 @@ namespace tidemark::renderer {
 
 class LabelSamples {
  public:
-  explicit LabelSamples(const solver::PageLayout& layout);
+  explicit LabelSamples(const PageLayout& layout);
 
-  void set_voxels(const SharedSlices& voxels) { volume_.set_voxels(voxels); }
+  void set_voxels(const PagedBytes& voxels) { volume_.set_voxels(voxels); }
   // Of the labels from 0 on.
   void set_colours(std::span<const LabelColour> colours);
   // Works out where borders are between voxels, which pictures in 3D need.
@@ -40,9 +40,6 @@ class LabelSamples {
   // The eight voxels around a position, i fastest; those beyond the volume are its outermost ones.
   struct Cell {
     Cell(const LabelSamples& samples, glm::vec3 position);
-    [[nodiscard]] Index3 voxel(std::size_t i) const {
-      return {ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z};
-    }
     [[nodiscard]] bool is_even() const;  // of one label
 
     std::array<Index3, 2> ends;

@@ -19,7 +19,7 @@ constexpr std::int32_t kWanted = -2;
 }  // namespace
 
 MapSamples::MapSamples(Index3 volume_size)
-    : blocks_(volume_size, solver::kDefaultPageShape), size_(volume_size), grid_(blocks_.pages()) {}
+    : blocks_(volume_size, kDefaultPageShape), size_(volume_size), grid_(blocks_.pages()) {}
 
 void MapSamples::set_function(std::shared_ptr<const solver::SpeedFunction> function) {
   if (function == function_) return;
@@ -32,8 +32,8 @@ void MapSamples::set_function(std::shared_ptr<const solver::SpeedFunction> funct
 }
 
 void MapSamples::want(const solver::VoxelBox& box) {
-  const Index3 first = box.first / solver::kDefaultPageShape;
-  const Index3 last = (box.first + box.size - Index3(1)) / solver::kDefaultPageShape;
+  const Index3 first = box.first / kDefaultPageShape;
+  const Index3 last = (box.first + box.size - Index3(1)) / kDefaultPageShape;
   for (std::int64_t z = first.z; z <= last.z; ++z) {
     for (std::int64_t y = first.y; y <= last.y; ++y) {
       for (std::int64_t x = first.x; x <= last.x; ++x) {
@@ -64,7 +64,7 @@ void MapSamples::fill_plane(const glm::dmat4& voxel_from_view, ThreadPool& threa
   for (std::int64_t z = first.z; z <= last.z; ++z) {
     for (std::int64_t y = first.y; y <= last.y; ++y) {
       for (std::int64_t x = first.x; x <= last.x; ++x) {
-        const Index3 voxel = Index3(x, y, z) * solver::kDefaultPageShape;
+        const Index3 voxel = Index3(x, y, z) * kDefaultPageShape;
         const double distance = glm::dot(normal, glm::dvec3(voxel) + 3.5 - middle);
         if (std::abs(distance) <= farthest) want({voxel, Index3(1)});
       }
@@ -73,7 +73,7 @@ void MapSamples::fill_plane(const glm::dmat4& voxel_from_view, ThreadPool& threa
   fill(threads);
 }
 
-void MapSamples::fill_pages(const solver::PageLayout& layout, std::span<const std::int64_t> pages,
+void MapSamples::fill_pages(const PageLayout& layout, std::span<const std::int64_t> pages,
                             ThreadPool& threads) {
   if (!is_evaluated()) return;
   for (const std::int64_t page : pages) want({layout.first_voxel(page), layout.valid_shape(page)});

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/paging/page_layout.h"
 #include "core/thread_pool.h"
-#include "solver/paging/page_layout.h"
 #include "solver/speed/speed_function.h"
 
 namespace tidemark::renderer {
@@ -27,7 +27,7 @@ class MapSamples {
   // to voxel coordinates), or in pages of a layout, unless they are there. They throw what the function
   // throws, and may be called again then.
   void fill_plane(const glm::dmat4& voxel_from_view, ThreadPool& threads);
-  void fill_pages(const solver::PageLayout& layout, std::span<const std::int64_t> pages, ThreadPool& threads);
+  void fill_pages(const PageLayout& layout, std::span<const std::int64_t> pages, ThreadPool& threads);
 
   // Of a voxel of a block that is there, clamped to the volume; 0 elsewhere.
   [[nodiscard]] float at(glm::ivec3 voxel) const;
@@ -46,7 +46,7 @@ class MapSamples {
   void evaluate(const Run& run, float* values) const;
   void fill(ThreadPool& threads);
 
-  solver::PageLayout blocks_;
+  PageLayout blocks_;
   glm::ivec3 size_{0};  // voxels
   glm::ivec3 grid_{0};  // blocks
   std::shared_ptr<const solver::SpeedFunction> function_;

@@ -12,7 +12,7 @@ using Rows = float __attribute__((vector_size(4 * sizeof(float))));
 
 }  // namespace
 
-PhiPages::PhiPages(const solver::PageLayout& layout, double band)
+PhiPages::PhiPages(const PageLayout& layout, double band)
     : layout_(layout), size_(layout.domain_size()), pages_(layout.pages()) {
   for (int axis = 0; axis < 3; ++axis) {
     shift_[axis] = std::countr_zero(static_cast<std::uint64_t>(layout.page_shape()[axis]));

@@ -20,14 +20,14 @@ enum class PageState : std::uint8_t { outside, inside, resident, quiet, new_page
 class PhiPages {
  public:
   // Page sides are powers of two. All outside at first.
-  PhiPages(const solver::PageLayout& layout, double band);
+  PhiPages(const PageLayout& layout, double band);
 
   // The pages of a copy, which is kept, or of an executor's memory, which must stay as it is until the next
   // call. `quiet`: virtual pages that are not computed at present; without them state() stays as it was.
   void show(std::shared_ptr<const solver::Field> phi, std::span<const std::int64_t> quiet);
   void show(const solver::PageView& view, const std::optional<std::vector<std::int64_t>>& quiet);
 
-  [[nodiscard]] const solver::PageLayout& layout() const { return layout_; }
+  [[nodiscard]] const PageLayout& layout() const { return layout_; }
   [[nodiscard]] float band() const { return band_; }
 
   // A page's number in V_P, and back, for coordinates inside of it.
@@ -69,7 +69,7 @@ class PhiPages {
   void begin(double band);
   void mark(std::span<const std::int64_t> quiet);
 
-  solver::PageLayout layout_;
+  PageLayout layout_;
   glm::ivec3 size_{0};   // voxels
   glm::ivec3 pages_{0};  // V_P's
   glm::ivec3 shift_{0};  // log2 of a page's sides

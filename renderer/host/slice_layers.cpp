@@ -113,7 +113,7 @@ bool SliceLayers::shows_labels(const SliceTile& tile) const {
 
 bool SliceLayers::shows_constraints(const SliceTile& tile) const {
   if (!scene_.constraints) return false;
-  const solver::PageLayout& layout = scene_.constraints->layout();
+  const PageLayout& layout = scene_.constraints->layout();
   const glm::ivec3 shape(layout.page_shape());
   return any_page(tile.low / shape, tile.high / shape, [&](glm::ivec3 page) {
     return scene_.constraints->page(layout.page_number(Index3(page))) != nullptr;

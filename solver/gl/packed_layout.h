@@ -4,10 +4,10 @@
 
 #include <glm/vec2.hpp>
 
+#include "core/paging/page_layout.h"
 #include "gpu/capabilities.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
-#include "solver/paging/page_layout.h"
 #include "solver/paging/page_table.h"
 
 namespace tidemark::solver {

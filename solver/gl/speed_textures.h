@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "core/paging/page_layout.h"
 #include "core/thread_pool.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
-#include "solver/paging/page_layout.h"
 #include "solver/speed/speed_function.h"
 
 namespace tidemark::solver {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <optional>
 
+#include "core/paging/page_layout.h"
 #include "core/result.h"
 #include "solver/paging/changed_pages.h"
 #include "solver/paging/page_field.h"
-#include "solver/paging/page_layout.h"
 #include "solver/paging/page_table.h"
 
 namespace tidemark::solver {

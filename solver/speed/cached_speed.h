@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/paging/page_layout.h"
+#include "core/paging/page_layout.h"
 #include "solver/speed/speed_function.h"
 
 namespace tidemark::solver {

@@ -7,10 +7,10 @@
 #include <functional>
 #include <vector>
 
+#include "core/paging/page_layout.h"
+#include "core/paging/shared_pages.h"
 #include "core/volume.h"
 #include "solver/field.h"
-#include "solver/paging/page_layout.h"
-#include "solver/paging/shared_pages.h"
 #include "solver/sphere.h"
 
 namespace tidemark::solver {

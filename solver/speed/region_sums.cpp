@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "core/paging/page_rows.h"
 #include "core/thread_pool.h"
 #include "core/typed_volume.h"
-#include "solver/paging/page_rows.h"
 
 namespace tidemark::solver {
 

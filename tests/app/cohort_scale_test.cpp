@@ -146,6 +146,7 @@ void CohortScaleTest::a_run_takes_no_more_memory_the_longer_it_is() {
   QVERIFY(process.waitForFinished(-1));
   const double total = seconds(timer);
   QCOMPARE(process.exitCode(), 0);
+  qInfo("memory: %lld kB, then %lld kB", static_cast<long long>(early), static_cast<long long>(late));
 #ifndef TIDEMARK_SANITIZED  // what is freed stays with the sanitizer
   QVERIFY2(early > 0 && late - early < 4096, qPrintable(QString("%1 kB, then %2 kB").arg(early).arg(late)));
 #endif

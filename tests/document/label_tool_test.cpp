@@ -37,7 +37,7 @@ class LabelledCase {
   [[nodiscard]] std::uint8_t liver() const { return liver_; }
   [[nodiscard]] std::uint8_t spleen() const { return spleen_; }
   [[nodiscard]] document::LabelVoxels values() const {
-    return {labels_.geometry(), labels_.list(), std::make_shared<const SharedSlices>(labels_.voxels()),
+    return {labels_.geometry(), labels_.list(), std::make_shared<const PagedBytes>(labels_.voxels()),
             nullptr};
   }
   // The tool's outcome of the liver, applied.

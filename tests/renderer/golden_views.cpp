@@ -176,7 +176,7 @@ Patient::Patient(const char* kind, renderer::RendererKind renderer, int threads)
   parameters.range = phantom->range;
   parameters.alpha = phantom->alpha;
   window = renderer::window_of(*scene.source);
-  labels = SharedSlices(phantom->truth.geometry.size, phantom->truth.voxels);
+  labels = PagedBytes(phantom->truth.geometry.size, phantom->truth.voxels);
   painter = std::make_unique<Painter>(scene, renderer, threads);
   painter->renderer().set_parameters(parameters);
 }

@@ -19,7 +19,7 @@ struct Patient {
   Scene scene;
   solver::Parameters parameters;
   WindowLevel window;
-  SharedSlices labels;
+  PagedBytes labels;
   std::unique_ptr<Painter> painter;
   // Of rays, in place of the views' own, to compare pictures whose samples are at other places.
   std::optional<double> step_voxels;

@@ -23,7 +23,7 @@ glm::dvec3 colour_of(std::uint8_t label) {
 }
 
 // A ball of label 1 around one of label 2.
-SharedSlices balls(const Geometry& geometry, double inner = kInner) {
+PagedBytes balls(const Geometry& geometry, double inner = kInner) {
   const glm::dvec3 middle = renderer::middle_of(geometry);
   const auto values = sample(geometry, [&](glm::dvec3 p) {
     const double r = glm::length(p - middle);
@@ -39,7 +39,7 @@ Scene empty_scene(const Geometry& geometry) {
   return scene;
 }
 
-void label(Painter& painter, const SharedSlices& numbers, const std::vector<std::uint8_t>& hidden = {}) {
+void label(Painter& painter, const PagedBytes& numbers, const std::vector<std::uint8_t>& hidden = {}) {
   std::vector<renderer::LabelColour> colours(renderer::kLabels);
   for (std::size_t i = 1; i < colours.size(); ++i) {
     const auto [red, green, blue] = label_colour(static_cast<std::uint8_t>(i));
@@ -255,7 +255,7 @@ class LabelViewTest : public QObject {
     const Geometry geometry = grid({48, 44, 40});
     const Scene scene = empty_scene(geometry);
     Painter changing(scene);
-    SharedSlices labels(geometry.size);
+    PagedBytes labels(geometry.size);
     renderer::SliceView slice;
     slice.surface = false;
     slice.label_opacity = 1.0;
@@ -264,10 +264,7 @@ class LabelViewTest : public QObject {
     const std::vector<std::int64_t> middles{8, 20, 9, 31, 20};
     for (std::size_t n = 0; n < middles.size(); ++n) {
       const auto id = static_cast<std::uint8_t>(n == 4 ? 0 : n + 1);  // the last takes away
-      for (std::int64_t k = middles[n] - 6; k <= middles[n] + 6; ++k) {
-        for (std::int64_t j = 12; j < 30; ++j)
-          labels.fill(geometry.offset({8 + static_cast<std::int64_t>(3 * n), j, k}), 20, id);
-      }
+      labels.fill({8 + static_cast<std::int64_t>(3 * n), 12, middles[n] - 6}, {20, 18, 13}, id);
       label(changing, labels);
       Painter fresh(scene);
       label(fresh, labels);

@@ -21,13 +21,13 @@ solver::Field ball(const Geometry& geometry, double radius, glm::dvec3 middle, I
 
 // phi as the shaders find it, read back from physical memory through the page table.
 std::vector<float> read_back(const renderer::PhiPicture& picture) {
-  const solver::PageLayout& layout = picture.pages().layout();
+  const PageLayout& layout = picture.pages().layout();
   const std::vector<float> pages = *picture.field().download(0);
   std::vector<float> values;
   for (std::int64_t z = 0; z < layout.domain_size().z; ++z) {
     for (std::int64_t y = 0; y < layout.domain_size().y; ++y) {
       for (std::int64_t x = 0; x < layout.domain_size().x; ++x) {
-        const solver::VirtualAddress at = layout.translate({x, y, z});
+        const VirtualAddress at = layout.translate({x, y, z});
         const solver::PhysicalPage physical = picture.pages().physical(at.page);
         values.push_back(pages[static_cast<std::size_t>(physical * layout.voxels_per_page() + at.offset)]);
       }
@@ -58,7 +58,7 @@ class PhiPictureTest : public QObject {
     const Index3 shape(x, y, z);
     auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, true});
     QCOMPARE(failure(device), QString());
-    auto picture = renderer::PhiPicture::create(**device, solver::PageLayout(geometry.size, shape),
+    auto picture = renderer::PhiPicture::create(**device, PageLayout(geometry.size, shape),
                                                 solver::default_band(geometry));
     QCOMPARE(failure(picture), QString());
     // A ball that grows, shrinks to nothing, comes back elsewhere, fills everything.
@@ -105,7 +105,7 @@ class PhiPictureTest : public QObject {
     QFETCH(int, largest_texture);
     // Pages of 16 x 16 x 1, of which a layer has 16 x 16 or 32 x 32, and a ball that needs more.
     const bool is_layered = largest_texture > 0;
-    const Index3 page_shape = is_layered ? Index3(16, 16, 1) : solver::kDefaultPageShape;
+    const Index3 page_shape = is_layered ? Index3(16, 16, 1) : kDefaultPageShape;
     const double radius_mm = is_layered ? 0.09 * largest_texture : 22.0;
     const Geometry geometry = grid(is_layered ? Index3(2.0 * radius_mm + 20.0) : Index3(64, 64, 48));
     const Scene scene = ball_scene(geometry, radius_mm);
@@ -125,7 +125,7 @@ class PhiPictureTest : public QObject {
     QCOMPARE(failure(executor), QString());
     const double seed_mm = is_layered ? radius_mm - 2.0 : 5.0;
     QCOMPARE(failure((*executor)->paint({scene.middle, seed_mm}, solver::Brush::add)), QString());
-    const solver::PageLayout layout = (*executor)->snapshot()->layout;
+    const PageLayout layout = (*executor)->snapshot()->layout;
     auto of_copy = renderer::GlRenderer::create(*device, scene.source, layout);
     auto of_memory = renderer::GlRenderer::create(*device, scene.source, layout);
     QCOMPARE(failure(of_copy), QString());

@@ -33,7 +33,7 @@ struct Laden {
   Geometry geometry = test::grid({70, 61, 52}, {1.0, 1.1, 1.4});
   Scene scene =
       ball_scene(geometry, 18.0, [](glm::dvec3 p) { return 2.0 * p.x + 40.0 * std::sin(0.3 * p.y); });
-  SharedSlices labels;
+  PagedBytes labels;
   solver::Constraints constraints{geometry.size};
   std::shared_ptr<const solver::SpeedFunction> change;
   std::shared_ptr<const renderer::ImagesOver> images;
@@ -42,7 +42,7 @@ struct Laden {
     const auto numbers = sample(geometry, [](glm::dvec3 p) {
       return p.x + p.y < 40.0 ? 0.0 : p.x > 40.0 ? 2.0 : 1.0;
     });
-    labels = SharedSlices(geometry.size, std::vector<std::uint8_t>(numbers.begin(), numbers.end()));
+    labels = PagedBytes(geometry.size, std::vector<std::uint8_t>(numbers.begin(), numbers.end()));
     constraints.set(geometry, {scene.middle + glm::dvec3(14, 3, 0), 9.0}, solver::Constraint::wall);
     constraints.set(geometry, {scene.middle - glm::dvec3(14, 3, 0), 9.0}, solver::Constraint::anchor);
     Mask began{geometry, {}};

@@ -58,7 +58,7 @@ Scene ball_scene(const Geometry& geometry, double radius, glm::dvec3 marker, Ind
 }
 
 Scene ball_scene(const Geometry& geometry, double radius, const std::function<double(glm::dvec3)>& source) {
-  return scene_of(geometry, radius, source, solver::kDefaultPageShape);
+  return scene_of(geometry, radius, source, kDefaultPageShape);
 }
 
 std::shared_ptr<gpu::Device> reporting_device(bool as_gpu) {

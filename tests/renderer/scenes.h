@@ -25,7 +25,7 @@ struct Scene {
 // A ball of `radius` mm in the middle, phi its distance in smallest voxels. The source is 100 in it, and 1000
 // in a small ball at `marker` from the middle (mm, LPS).
 Scene ball_scene(const Geometry& geometry, double radius, glm::dvec3 marker = glm::dvec3(1e6),
-                 Index3 page_shape = solver::kDefaultPageShape);
+                 Index3 page_shape = kDefaultPageShape);
 // The same with a source of one's own.
 Scene ball_scene(const Geometry& geometry, double radius, const std::function<double(glm::dvec3)>& source);
 

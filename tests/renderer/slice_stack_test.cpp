@@ -37,8 +37,8 @@ double two_balls(glm::dvec3 p) {
                   5.0 - glm::length(p - glm::dvec3(-9.0, 6.0, 8.0)));
 }
 
-Scene scene(const Geometry& geometry, Index3 page_shape = solver::kDefaultPageShape,
-            Stored kind = Stored::int16, const Distance& distance = two_balls) {
+Scene scene(const Geometry& geometry, Index3 page_shape = kDefaultPageShape, Stored kind = Stored::int16,
+            const Distance& distance = two_balls) {
   const auto values = sample_around_middle(geometry, [](glm::dvec3 p) {
     const auto hill = [&](glm::dvec3 middle, double width) {
       return std::exp(-glm::dot(p - middle, p - middle) / (width * width));
@@ -186,7 +186,7 @@ class SliceStackTest : public QObject {
   void a_balls_silhouette_has_its_size_from_every_side() {
     const Geometry geometry = grid({48, 48, 48});
     const auto ball = [](glm::dvec3 p) { return 15.0 - glm::length(p); };
-    const auto renderer = renderer_of(scene(geometry, solver::kDefaultPageShape, Stored::int16, ball));
+    const auto renderer = renderer_of(scene(geometry, kDefaultPageShape, Stored::int16, ball));
     for (const auto& [azimuth, elevation] : kEverySide) {
       renderer::VolumeView view;
       view.mode = renderer::Mode::slices;
@@ -202,7 +202,7 @@ class SliceStackTest : public QObject {
 
   void every_kind_of_stored_value_shows_the_same() {
     for (const Stored kind : {Stored::int16, Stored::uint16, Stored::real}) {
-      const auto renderer = renderer_of(scene(grid({50, 41, 37}), solver::kDefaultPageShape, kind));
+      const auto renderer = renderer_of(scene(grid({50, 41, 37}), kDefaultPageShape, kind));
       for (const auto& [azimuth, elevation] : {std::pair{0.0, 0.0}, {90.0, 0.0}, {0.0, 90.0}}) {
         renderer::VolumeView view = view_of("alone: source");
         view.camera = {azimuth, elevation};

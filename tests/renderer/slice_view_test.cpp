@@ -299,8 +299,8 @@ class SliceViewTest : public QObject {
     const auto values =
         sample(geometry, [](glm::dvec3 p) { return p.x >= 16.0 ? (p.y >= 16.0 ? 2.0 : 1.0) : 0.0; });
     const std::vector<std::uint8_t> labels(values.begin(), values.end());
-    QCOMPARE(draw.renderer().set_labels(SharedSlices(Index3(20))).error().kind, ErrorKind::usage);
-    QCOMPARE(failure(draw.renderer().set_labels(SharedSlices(geometry.size, labels))), QString());
+    QCOMPARE(draw.renderer().set_labels(PagedBytes(Index3(20))).error().kind, ErrorKind::usage);
+    QCOMPARE(failure(draw.renderer().set_labels(PagedBytes(geometry.size, labels))), QString());
     renderer::SliceView view;
     view.surface = false;
     view.window = {50.0, 100.0};
@@ -336,7 +336,7 @@ class SliceViewTest : public QObject {
     const glm::ivec3 resident = at(20.0);
     QVERIFY(resident.b > resident.r + 30);
     // The page at the surface falls asleep, and then is one that has just come.
-    const solver::PageLayout& layout = scene.phi.layout;
+    const PageLayout& layout = scene.phi.layout;
     const std::int64_t page = layout.translate({51, 29, 32}).page;
     QCOMPARE(failure(draw.renderer().set_phi(scene.phi, std::vector{page})), QString());
     const glm::ivec3 quiet = at(20.0);

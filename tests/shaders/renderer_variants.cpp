@@ -108,8 +108,8 @@ class Listener {
     must(made);
     renderer_ = std::move(*made);
     must(renderer_->set_phi(scene_.phi));
-    SharedSlices labels(scene_.source->geometry.size);
-    labels.fill(0, 1, 1);
+    PagedBytes labels(scene_.source->geometry.size);
+    labels.fill(Index3(0), Index3(1), 1);
     must(renderer_->set_labels(labels));
     renderer_->set_change(std::make_shared<FormulaSpeed>([](glm::dvec3) { return 0.1; }));
   }

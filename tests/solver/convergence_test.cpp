@@ -178,7 +178,7 @@ class ConvergenceTest : public QObject {
              qPrintable(QString::number(on_its_way)));
     const auto moving = level_set->moving_pages().value();
     QVERIFY(!moving.empty() && moving.size() <= 16);
-    const solver::PageLayout layout(scene.geometry.size, level_set->memory().page_shape);
+    const PageLayout layout(scene.geometry.size, level_set->memory().page_shape);
     for (const std::int64_t page : moving) {
       const Index3 first = layout.page_coordinates(page) * layout.page_shape();
       QVERIFY2(first.x + layout.page_shape().x > Vessel::kBall,

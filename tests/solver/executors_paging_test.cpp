@@ -14,7 +14,7 @@ namespace {
 
 // phi in voxel order as a shader finds it: by the page table, in the texture of packed pages.
 std::vector<float> seen_through(const solver::PackedView& view) {
-  const solver::PageLayout& pages = view.layout.layout();
+  const PageLayout& pages = view.layout.layout();
   const auto table = view.page_table->download_values<solver::PhysicalPage>(0, pages.page_count());
   const std::int64_t width = view.phi->width();
   const std::int64_t height = view.phi->height();

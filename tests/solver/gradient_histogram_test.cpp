@@ -19,7 +19,7 @@ class GradientHistogramTest : public QObject {
   }
   // A ball's distance times `steepness`, clamped.
   static solver::Field ball(double steepness, glm::dvec3 spacing = glm::dvec3(1.0),
-                            Index3 page_shape = solver::kDefaultPageShape) {
+                            Index3 page_shape = kDefaultPageShape) {
     const Geometry geometry = grid(spacing);
     const glm::dvec3 centre = geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1)));
     const double smallest = std::min({spacing.x, spacing.y, spacing.z});

@@ -17,7 +17,7 @@ namespace {
 constexpr Index3 kShapes[] = {{8, 8, 8}, {16, 16, 1}, {4, 4, 4}};
 
 template <int kDimensions>
-std::int64_t volume(solver::Index<kDimensions> sizes) {
+std::int64_t volume(Index<kDimensions> sizes) {
   std::int64_t result = 1;
   for (int axis = 0; axis < kDimensions; ++axis) result *= sizes[axis];
   return result;
@@ -25,8 +25,8 @@ std::int64_t volume(solver::Index<kDimensions> sizes) {
 
 // The voxel of that number in voxel order.
 template <int kDimensions>
-solver::Index<kDimensions> voxel_at(solver::Index<kDimensions> size, std::int64_t number) {
-  solver::Index<kDimensions> voxel;
+Index<kDimensions> voxel_at(Index<kDimensions> size, std::int64_t number) {
+  Index<kDimensions> voxel;
   for (int axis = 0; axis < kDimensions; ++axis) {
     voxel[axis] = number % size[axis];
     number /= size[axis];
@@ -35,8 +35,8 @@ solver::Index<kDimensions> voxel_at(solver::Index<kDimensions> size, std::int64_
 }
 
 template <int kDimensions>
-void check_addresses(solver::Index<kDimensions> size, solver::Index<kDimensions> shape) {
-  const solver::BasicPageLayout<kDimensions> layout(size, shape);
+void check_addresses(Index<kDimensions> size, Index<kDimensions> shape) {
+  const BasicPageLayout<kDimensions> layout(size, shape);
   QCOMPARE(layout.voxels_per_page(), volume<kDimensions>(shape));
   std::int64_t valid_voxels = 0;
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
@@ -48,8 +48,8 @@ void check_addresses(solver::Index<kDimensions> size, solver::Index<kDimensions>
   QVERIFY(!layout.contains_page(layout.pages()));
   std::vector<bool> seen(static_cast<std::size_t>(layout.page_count() * layout.voxels_per_page()));
   for (std::int64_t number = 0; number < valid_voxels; ++number) {
-    const solver::Index<kDimensions> voxel = voxel_at<kDimensions>(size, number);
-    const solver::VirtualAddress address = layout.translate(voxel);
+    const Index<kDimensions> voxel = voxel_at<kDimensions>(size, number);
+    const VirtualAddress address = layout.translate(voxel);
     const auto index = static_cast<std::size_t>(address.page * layout.voxels_per_page() + address.offset);
     QVERIFY(!seen[index]);
     seen[index] = true;
@@ -60,8 +60,8 @@ void check_addresses(solver::Index<kDimensions> size, solver::Index<kDimensions>
 // Pages come, go and are written to at random: all fields hold what was written last, and elsewhere the
 // constants.
 template <int kDimensions>
-void check_memory(solver::Index<kDimensions> size, solver::Index<kDimensions> shape) {
-  const solver::BasicPageLayout<kDimensions> layout(size, shape);
+void check_memory(Index<kDimensions> size, Index<kDimensions> shape) {
+  const BasicPageLayout<kDimensions> layout(size, shape);
   solver::PagedMemory<kDimensions> memory(layout, solver::kUnlimited);
   const auto phi = memory.template attach<float>(2);
   const auto speed = memory.template attach<std::int16_t>();
@@ -101,7 +101,7 @@ void check_memory(solver::Index<kDimensions> size, solver::Index<kDimensions> sh
   };
   for (int change = 0; change < 1500; ++change) {
     const std::int64_t number = static_cast<std::int64_t>(random()) % voxels;
-    const solver::Index<kDimensions> voxel = voxel_at<kDimensions>(size, number);
+    const Index<kDimensions> voxel = voxel_at<kDimensions>(size, number);
     const std::int64_t page = layout.translate(voxel).page;
     const solver::PhysicalPage before = memory.physical(page);
     QCOMPARE(memory.physical(layout.page_coordinates(page)), before);
@@ -164,7 +164,7 @@ class PagingTest : public QObject {
         check_addresses<3>(size, shape);
       }
     }
-    for (const solver::Index<2> size : {solver::Index<2>(1, 61), solver::Index<2>(37, 16)}) {
+    for (const Index<2> size : {Index<2>(1, 61), Index<2>(37, 16)}) {
       check_addresses<2>(size, {16, 16});
       check_addresses<2>(size, {5, 3});
     }
@@ -180,7 +180,7 @@ class PagingTest : public QObject {
 
   void memory_keeps_its_budget() {
     constexpr std::int64_t kPages = 20;
-    const solver::BasicPageLayout<2> layout({160, 160}, {16, 16});
+    const BasicPageLayout<2> layout({160, 160}, {16, 16});
     // What so many pages need, told by a memory without a budget.
     solver::PagedMemory<2> free(layout, solver::kUnlimited);
     const auto its_field = free.attach<float>(2);

@@ -49,7 +49,7 @@ struct Scene {
 
 std::vector<PassRecord> all_records(solver::Executor& level_set) {
   std::vector<PassRecord> records;
-  const solver::PageLayout layout(level_set.snapshot().value().geometry.size, {16, 16, 1});
+  const PageLayout layout(level_set.snapshot().value().geometry.size, {16, 16, 1});
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     PassRecord record = good(level_set.record_step(page));
     if (record.is_resident()) records.push_back(std::move(record));

@@ -2,8 +2,8 @@
 // next.
 #include <algorithm>
 
+#include "core/paging/shared_pages.h"
 #include "executor_rows.h"
-#include "solver/paging/shared_pages.h"
 #include "solver/statistics.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -12,7 +12,6 @@ namespace tidemark::test::shared_pages_test {
 
 namespace {
 
-using solver::SharedPages;
 using Kind = SharedPages::Kind;
 using Pages = std::vector<std::int64_t>;
 

@@ -33,7 +33,7 @@ T good(Result<T> result) {
 // Physical memory with every page of a volume resident.
 struct FullMemory {
   std::shared_ptr<gpu::Device> gpu = device();
-  solver::PageLayout pages;
+  PageLayout pages;
   solver::PackedLayout layout;
   solver::PagedMemory<3> table;
   std::vector<solver::PhysicalPage> list;
@@ -176,7 +176,7 @@ class StreamTest : public QObject {
     const auto tent = std::make_shared<solver::TentSpeed>(source, solver::Parameters());
     const solver::Model model(source->geometry, {}, *tent);
     const auto gpu = device();
-    const solver::PageLayout pages(geometry.size, kPageShape);
+    const PageLayout pages(geometry.size, kPageShape);
     const solver::PackedLayout layout(pages, gpu->capabilities());
     solver::PagedMemory<3> table(pages, solver::kUnlimited);
     const solver::PhysicalPage page = table.make_resident(pages.page_number({1, 1, 1})).value();
@@ -191,7 +191,7 @@ class StreamTest : public QObject {
     gpu::begin_exact_drawing();
     std::vector<float> values(kPageTexels, -band);
     const auto upload = [&] {
-      solver::SharedPages one(1, kPageTexels);
+      SharedPages one(1, kPageTexels);
       std::copy(values.begin(), values.end(), one.store(0));
       memory.field().upload(one);
     };

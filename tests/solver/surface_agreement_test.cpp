@@ -15,8 +15,7 @@ class SurfaceAgreementTest : public QObject {
   static Geometry grid() { return {{52, 44, 40}, {0.8, 1.0, 1.5}, glm::dmat3(1.0), {3.0, -2.0, 7.0}}; }
 
   // A ball's distance, clamped as level sets are.
-  static solver::Field ball(glm::dvec3 off_mm, double radius_mm,
-                            Index3 page_shape = solver::kDefaultPageShape) {
+  static solver::Field ball(glm::dvec3 off_mm, double radius_mm, Index3 page_shape = kDefaultPageShape) {
     const Geometry geometry = grid();
     const double band = 2.5;
     const glm::dvec3 centre = geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1))) + off_mm;

@@ -32,7 +32,7 @@ constexpr int kAmountDecimals = 2;  // of ml and mm
 constexpr int kDiceColumn = 2;
 
 // Whether a voxel of the region has no label.
-bool has_free_voxel(const Region& region, const SharedSlices& labels) {
+bool has_free_voxel(const Region& region, const PagedBytes& labels) {
   bool is_free = false;
   region.for_each_run([&](Index3 voxel, std::int64_t length) {
     for (std::int64_t i = 0; i < length && !is_free; ++i) is_free = labels.at(voxel + Index3(i, 0, 0)) == 0;

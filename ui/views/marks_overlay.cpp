@@ -58,7 +58,7 @@ std::vector<Cell> cells_in(const Geometry& geometry, const engine::SliceSlab& sl
 
 std::vector<std::int64_t> constrained(const solver::Constraints& constraints, const Geometry& geometry,
                                       const engine::SliceSlab& slab, solver::Constraint what) {
-  const solver::PageLayout& layout = constraints.layout();
+  const PageLayout& layout = constraints.layout();
   std::vector<std::int64_t> voxels;
   for (const std::int64_t page : constraints.pages().stored_pages()) {
     const Index3 first = layout.first_voxel(page);

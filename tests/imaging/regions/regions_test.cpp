@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
+#include "core/paged_bytes.h"
 #include "core/region.h"
-#include "core/shared_slices.h"
 #include "imaging/regions/cut.h"
 #include "imaging/regions/fill_slices.h"
 #include "imaging/regions/islands.h"
@@ -85,7 +85,7 @@ class RegionsTest : public QObject {
       // From labels it takes room for its own voxels alone, and is the same.
       std::vector<std::uint8_t> labels(mask.voxels.size(), 9);
       for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = mask.voxels[i] != 0 ? 7 : labels[i];
-      const SharedSlices slices(grid.size, labels);
+      const PagedBytes slices(grid.size, labels);
       const Region of_label(slices, 7);
       QVERIFY(of_label == region);
       QVERIFY(of_label.bounds() == region.bounds());

@@ -86,7 +86,7 @@ void PassesStoryTest::a_page_is_followed_through_its_steps() {
   Desktop::drag(*axial, {edge});
   const auto page_there = [&] {
     const Geometry& geometry = desktop.proxy().volume().geometry;
-    const solver::PageLayout layout(geometry.size, {16, 16, 1});
+    const PageLayout layout(geometry.size, {16, 16, 1});
     const glm::dvec3 voxel = geometry.to_voxel(desktop.proxy().display().settings().cursor_mm);
     return layout.translate(Index3(glm::round(voxel))).page;
   };

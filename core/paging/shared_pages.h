@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::solver {
+namespace tidemark {
 
 // A virtual page that is not stored is outside or inside throughout.
 //
@@ -43,10 +43,13 @@ class BasicSharedPages {
   void set_constant(std::int64_t page, Kind kind);
   // A page of the caller's values; what it writes there is seen in no other copy. They are not set yet.
   [[nodiscard]] T* store(std::int64_t page);
-  // The values of a stored page, to be changed; copies keep what they were.
+  // The values of a stored page, to be changed; copies keep what they were. Where no copy has the page it
+  // stays at its place, and several threads may ask for it.
   [[nodiscard]] T* change(std::int64_t page);
   // The page as it is in another value with as many pages.
-  void share(std::int64_t page, const BasicSharedPages& other);
+  void share(std::int64_t page, const BasicSharedPages& other) { share(page, other, page); }
+  // The page as that one of another value, whose pages have as many voxels.
+  void share(std::int64_t page, const BasicSharedPages& other, std::int64_t like);
   // The page as another page of this value is.
   void repeat(std::int64_t page, std::int64_t like) { replace(page, held(like)); }
 
@@ -77,8 +80,8 @@ class BasicSharedPages {
   static inline std::array<T, 1> kInside{};
 
   [[nodiscard]] const Page& held(std::int64_t page) const {
-    return std::as_const(
-        *chunks_[static_cast<std::size_t>(page / kChunk)])[static_cast<std::size_t>(page % kChunk)];
+    const auto number = static_cast<std::size_t>(page);  // what has no sign is divided by shifting
+    return std::as_const(*chunks_[number / kChunk])[number % kChunk];
   }
   [[nodiscard]] const T* place(std::int64_t page) const { return held(page).get(); }
   Page& entry(std::int64_t page);
@@ -132,6 +135,7 @@ T* BasicSharedPages<T>::store(std::int64_t page) {
 
 template <class T>
 T* BasicSharedPages<T>::change(std::int64_t page) {
+  if (T* const own = entry(page).get(); entry(page).use_count() == 1) return own;
   const Page former = held(page);
   T* const values = store(page);
   std::copy_n(former.get(), voxels_per_page_, values);
@@ -139,9 +143,9 @@ T* BasicSharedPages<T>::change(std::int64_t page) {
 }
 
 template <class T>
-void BasicSharedPages<T>::share(std::int64_t page, const BasicSharedPages& other) {
-  if (place(page) == other.place(page)) return;
-  replace(page, other.held(page));
+void BasicSharedPages<T>::share(std::int64_t page, const BasicSharedPages& other, std::int64_t like) {
+  if (place(page) == other.place(like)) return;
+  replace(page, other.held(like));
 }
 
 template <class T>
@@ -160,4 +164,4 @@ std::int64_t BasicSharedPages<T>::bytes() const {
          stored_ * voxels_per_page_ * static_cast<std::int64_t>(sizeof(T));
 }
 
-}  // namespace tidemark::solver
+}  // namespace tidemark

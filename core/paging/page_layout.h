@@ -4,7 +4,7 @@
 
 #include "core/geometry.h"
 
-namespace tidemark::solver {
+namespace tidemark {
 
 // A voxel's coordinates in a domain of so many dimensions, or as many sizes along its axes.
 template <int kDimensions>
@@ -62,4 +62,4 @@ extern template class BasicPageLayout<4>;
 using PageLayout = BasicPageLayout<3>;
 inline constexpr Index3 kDefaultPageShape{8, 8, 8};
 
-}  // namespace tidemark::solver
+}  // namespace tidemark

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/geometry.h"
-#include "solver/paging/page_layout.h"
+#include "core/paging/page_layout.h"
 
-namespace tidemark::solver {
+namespace tidemark {
 
 // Calls visit(voxel offset of the row, row length, index of its first value in the page) for each row.
 template <class Visit>
@@ -19,4 +19,4 @@ void for_each_row(const Geometry& geometry, const PageLayout& layout, std::int64
   }
 }
 
-}  // namespace tidemark::solver
+}  // namespace tidemark

@@ -1,9 +1,9 @@
-#include "solver/paging/page_layout.h"
+#include "core/paging/page_layout.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-namespace tidemark::solver {
+namespace tidemark {
 
 template <int kDimensions>
 BasicPageLayout<kDimensions>::BasicPageLayout(Coordinates domain_size, Coordinates page_shape)
@@ -66,4 +66,4 @@ template class BasicPageLayout<2>;
 template class BasicPageLayout<3>;
 template class BasicPageLayout<4>;
 
-}  // namespace tidemark::solver
+}  // namespace tidemark
