@@ -1,7 +1,6 @@
 #include "document/labels.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "core/label_colour.h"
