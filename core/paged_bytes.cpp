@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "core/paging/page_rows.h"
+
 namespace tidemark {
 namespace {
 
@@ -28,7 +30,7 @@ void for_each_part(const PageLayout& layout, Index3 first, Index3 shape, const V
 
 // Calls visit(page, index in the page, index in the box, length) for their rows along i.
 template <class Visit>
-void for_each_row(const PageLayout& layout, Index3 first, Index3 shape, const Visit& visit) {
+void for_each_box_row(const PageLayout& layout, Index3 first, Index3 shape, const Visit& visit) {
   const Index3 page_shape = layout.page_shape();
   for_each_part(layout, first, shape, [&](std::int64_t page, Index3 corner, Index3 low, Index3 high) {
     for (std::int64_t z = low.z; z < high.z; ++z) {
@@ -47,36 +49,27 @@ PagedBytes::PagedBytes(Index3 size, std::uint8_t rest)
 
 PagedBytes::PagedBytes(Index3 size, std::span<const std::uint8_t> voxels, std::uint8_t rest)
     : PagedBytes(size, rest) {
+  Geometry grid;
+  grid.size = size;
   for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
-    const Index3 first = layout_.first_voxel(page);
-    const Index3 shape = layout_.valid_shape(page);
-    std::uint8_t* values = nullptr;
-    for (std::int64_t z = 0; z < shape.z; ++z) {
-      for (std::int64_t y = 0; y < shape.y; ++y) {
-        const std::int64_t offset = first.x + size.x * (first.y + y + size.y * (first.z + z));
-        const auto row = voxels.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(shape.x));
-        if (values == nullptr) {
-          if (std::all_of(row.begin(), row.end(), [rest](std::uint8_t value) { return value == rest; }))
-            continue;
-          values = change(page);
-        }
-        std::copy(row.begin(), row.end(), values + kPageShape.x * (y + kPageShape.y * z));
-      }
-    }
+    std::uint8_t* const values = change(page);
+    for_each_row(grid, layout_, page, [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
+      std::copy_n(voxels.data() + offset, length, values + index);
+    });
     join_even_page(page);
   }
 }
 
 void PagedBytes::read(Index3 first, Index3 shape, std::uint8_t* into) const {
-  for_each_row(layout_, first, shape,
-               [&](std::int64_t page, std::int64_t index, std::int64_t in_box, std::int64_t length) {
-                 const std::uint8_t* const values = pages_.values(page);
-                 if (values == nullptr) {
-                   std::fill_n(into + in_box, length, rest_);
-                 } else {
-                   std::copy_n(values + index, length, into + in_box);
-                 }
-               });
+  for_each_box_row(layout_, first, shape,
+                   [&](std::int64_t page, std::int64_t index, std::int64_t in_box, std::int64_t length) {
+                     const std::uint8_t* const values = pages_.values(page);
+                     if (values == nullptr) {
+                       std::fill_n(into + in_box, length, rest_);
+                     } else {
+                       std::copy_n(values + index, length, into + in_box);
+                     }
+                   });
 }
 
 std::vector<std::uint8_t> PagedBytes::voxels() const {
@@ -99,18 +92,18 @@ std::optional<std::uint8_t> PagedBytes::even_value(Index3 first, Index3 shape) c
 }
 
 void PagedBytes::fill(Index3 first, Index3 shape, std::uint8_t value) {
-  for_each_row(layout_, first, shape,
-               [&](std::int64_t page, std::int64_t index, std::int64_t, std::int64_t length) {
-                 if (value != rest_ || pages_.values(page) != nullptr)
-                   std::fill_n(change(page) + index, length, value);
-               });
+  for_each_box_row(layout_, first, shape,
+                   [&](std::int64_t page, std::int64_t index, std::int64_t, std::int64_t length) {
+                     if (value != rest_ || pages_.values(page) != nullptr)
+                       std::fill_n(change(page) + index, length, value);
+                   });
 }
 
 void PagedBytes::write(Index3 first, Index3 shape, const std::uint8_t* values) {
-  for_each_row(layout_, first, shape,
-               [&](std::int64_t page, std::int64_t index, std::int64_t in_box, std::int64_t length) {
-                 std::copy_n(values + in_box, length, change(page) + index);
-               });
+  for_each_box_row(layout_, first, shape,
+                   [&](std::int64_t page, std::int64_t index, std::int64_t in_box, std::int64_t length) {
+                     std::copy_n(values + in_box, length, change(page) + index);
+                   });
 }
 
 void PagedBytes::own(Index3 first, Index3 shape) {
@@ -139,8 +132,8 @@ void PagedBytes::join_even_page(std::int64_t page) {
   const std::uint8_t* const values = pages_.values(page);
   if (values == nullptr) return;
   const std::uint8_t value = *values;
-  // The first that differs, by comparing the page with itself moved by one.
-  if (!std::equal(values, values + kPageVoxels - 1, values + 1)) return;
+  const bool is_even = std::equal(values, values + kPageVoxels - 1, values + 1);
+  if (!is_even) return;
   if (value == rest_) {
     pages_.set_constant(page, Pages::Kind::outside);
   } else {

@@ -113,7 +113,6 @@ Status add_segments(Labels& labels, const imaging::Segments& segments) {
     names += (names.empty() ? "" : ", ") + label.name;
     list.push_back(std::move(label));
   }
-  voxels.join_even_pages(labels.voxels());
   return labels.replace(ChangeKind::import_labels, names, std::move(list), std::move(voxels));
 }
 

@@ -88,6 +88,7 @@ Status Labels::change(ChangeKind kind, const std::string& name, std::vector<Labe
     TIDEMARK_TRY(history_->close());
   }
   // All that may lack memory comes first: without an entry of the history there is no change.
+  voxels.join_even_pages(voxels_);
   const bool has_runs = !runs.empty();
   runs.shrink_to_fit();
   if (history_ != nullptr)
@@ -131,7 +132,6 @@ Status Labels::remove(std::uint8_t id) {
     runs.push_back({geometry_.offset(voxel), length, id, 0});
     voxels.fill(voxel, {length, 1, 1}, 0);
   });
-  voxels.join_even_pages(voxels_);
   return change(ChangeKind::remove_label, present->name, std::move(list), std::move(runs), std::move(voxels));
 }
 
@@ -206,7 +206,6 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
     }
     give_voxels(wanted.region, wanted.label, free, acceptance, runs, voxels);
   }
-  voxels.join_even_pages(voxels_);
   Status changed = change(kind, acceptance.label, std::move(list), std::move(runs), std::move(voxels));
   if (!changed) return pass_on(changed);
   return acceptance;
