@@ -1,5 +1,6 @@
 #include "imaging/phantom/noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -20,6 +21,36 @@ constexpr std::uint64_t kGoldenRatio = 0x9e3779b97f4a7c15ULL;
 std::int64_t sum_of_quarters(std::uint64_t word) {
   return static_cast<std::int64_t>((word & 0xffff) + ((word >> 16) & 0xffff) + ((word >> 32) & 0xffff) +
                                    (word >> 48));
+}
+
+constexpr double kTwoPi = 6.283185307179586;
+
+// An angle between two turns: the distance from the nearest half turn (within a quarter), with the angle's
+// sign, in radians, where the series below converge fast; and whether that half turn is an odd one.
+struct Angle {
+  double from_half_turn;
+  bool odd;
+};
+
+// Without a branch and without an integer, so that several waves fit one instruction.
+Angle angle(double turns) {
+  constexpr double kRounds = 0x1.8p52;  // a number of this size has no digits after the point
+  const double turn = turns - ((turns + kRounds) - kRounds);
+  const double distance = std::abs(turn);
+  return {kTwoPi * std::copysign(std::min(distance, 0.5 - distance), turn), distance > 0.25};
+}
+
+// The Taylor series of both, by Horner's scheme.
+double sine(const Angle& angle) {
+  const double x = angle.from_half_turn;
+  const double s = x * x;
+  return x * (1.0 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880)))));
+}
+double cosine(const Angle& angle) {
+  const double s = angle.from_half_turn * angle.from_half_turn;
+  const double near =
+      1.0 + s * (-1.0 / 2 + s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320 + s * (-1.0 / 3628800)))));
+  return angle.odd ? -near : near;
 }
 
 glm::dvec3 direction(std::uint64_t seed, std::uint64_t index) {
@@ -46,45 +77,43 @@ double gaussian(std::uint64_t seed, std::uint64_t index) {
 }
 
 Wave wave(double turns) {
-  // To the nearest turn, then to the quarters around 0 where the series of sine converges fast.
-  double t = turns - static_cast<double>(static_cast<std::int64_t>(turns + (turns < 0 ? -0.5 : 0.5)));
-  double sign = 1.0;
-  if (t > 0.25 || t < -0.25) {
-    t = (t > 0 ? 0.5 : -0.5) - t;
-    sign = -1.0;
-  }
-  constexpr double kTwoPi = 6.283185307179586;
-  const double x = kTwoPi * t;
-  const double s = x * x;
-  const double sine = x * (1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72))));
-  const double cosine = 1 - s / 2 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56 * (1 - s / 90))));
-  return {sine, kTwoPi * sign * cosine};
+  const Angle a = angle(turns);
+  return {sine(a), kTwoPi * cosine(a)};
 }
 
 RandomWaves::RandomWaves(std::uint64_t seed, int waves, double shortest_mm, double longest_mm)
-    : amplitude_(std::sqrt(2.0 / waves)) {
-  for (int i = 0; i < waves; ++i) {
-    const auto index = static_cast<std::uint64_t>(i);
-    const double length = shortest_mm + (longest_mm - shortest_mm) * uniform(hash(seed, 1), index);
-    components_.push_back({direction(hash(seed, 2), index) / length, uniform(hash(seed, 3), index)});
+    : count_(static_cast<std::size_t>(waves)), amplitude_(std::sqrt(2.0 / waves)) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const double length = shortest_mm + (longest_mm - shortest_mm) * uniform(hash(seed, 1), i);
+    const glm::dvec3 turns_per_mm = direction(hash(seed, 2), i) / length;
+    x_[i] = turns_per_mm.x;
+    y_[i] = turns_per_mm.y;
+    z_[i] = turns_per_mm.z;
+    phase_[i] = uniform(hash(seed, 3), i);
   }
 }
 
 RandomWaves::Sample RandomWaves::sample(const glm::dvec3& p_mm) const {
+  std::array<double, kMost> values;
+  std::array<double, kMost> slopes;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Angle a = angle(turns(i, p_mm));
+    values[i] = sine(a);
+    slopes[i] = kTwoPi * cosine(a);
+  }
   Sample sum{0.0, glm::dvec3(0.0)};
-  for (const Component& component : components_) {
-    const Wave w = wave(glm::dot(component.turns_per_mm, p_mm) + component.phase);
-    sum.value += w.value;
-    sum.gradient += w.slope * component.turns_per_mm;
+  for (std::size_t i = 0; i < count_; ++i) {
+    sum.value += values[i];
+    sum.gradient += slopes[i] * glm::dvec3(x_[i], y_[i], z_[i]);
   }
   return {amplitude_ * sum.value, amplitude_ * sum.gradient};
 }
 
 double RandomWaves::value(const glm::dvec3& p_mm) const {
+  std::array<double, kMost> values;
+  for (std::size_t i = 0; i < count_; ++i) values[i] = sine(angle(turns(i, p_mm)));
   double sum = 0.0;
-  for (const Component& component : components_) {
-    sum += wave(glm::dot(component.turns_per_mm, p_mm) + component.phase).value;
-  }
+  for (std::size_t i = 0; i < count_; ++i) sum += values[i];
   return amplitude_ * sum;
 }
 

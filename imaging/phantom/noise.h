@@ -2,9 +2,10 @@
 // the same everywhere. The standard library's distributions and the C library's sine differ between systems.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <vector>
 
 namespace tidemark::imaging::phantom {
 
@@ -27,7 +28,9 @@ struct Wave {
 // A smooth random field: plane waves in random directions, mean 0, standard deviation 1.
 class RandomWaves {
  public:
-  // Wavelengths are uniform between shortest_mm and longest_mm; more waves look less regular.
+  // Up to kMost waves, the lengths of which are uniform between shortest_mm and longest_mm; more look less
+  // regular.
+  static constexpr std::size_t kMost = 16;
   RandomWaves(std::uint64_t seed, int waves, double shortest_mm, double longest_mm);
 
   struct Sample {
@@ -38,11 +41,13 @@ class RandomWaves {
   [[nodiscard]] double value(const glm::dvec3& p_mm) const;
 
  private:
-  struct Component {
-    glm::dvec3 turns_per_mm;
-    double phase;
-  };
-  std::vector<Component> components_;
+  [[nodiscard]] double turns(std::size_t wave, const glm::dvec3& p_mm) const {
+    return x_[wave] * p_mm.x + y_[wave] * p_mm.y + z_[wave] * p_mm.z + phase_[wave];
+  }
+
+  std::array<double, kMost> x_{}, y_{}, z_{};  // turns per mm
+  std::array<double, kMost> phase_{};          // turns at the origin
+  std::size_t count_;
   double amplitude_;
 };
 

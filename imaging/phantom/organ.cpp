@@ -19,6 +19,9 @@ constexpr double kVoxel = 0.9;
 struct Tube {
   glm::dvec3 a, b;
   double radius_a, radius_b;
+  // A ball around it.
+  glm::dvec3 middle = 0.5 * (a + b);
+  double reach = 0.5 * glm::length(b - a) + std::max(radius_a, radius_b);
 };
 
 // A vessel that divides in two, each branch thinner and shorter than its parent.
@@ -39,9 +42,16 @@ void grow_tree(std::vector<Tube>& tree, std::uint64_t seed, const Tube& stem, in
   }
 }
 
+// To the nearest tube, or kFar, where no voxel holds a part of one.
 double tubes_distance(const glm::dvec3& p, const std::vector<Tube>& tubes) {
-  double d = 1e9;
-  for (const Tube& tube : tubes) d = std::min(d, capsule(p, tube.a, tube.b, tube.radius_a, tube.radius_b));
+  constexpr double kFar = 2.0 * kVoxel;
+  double d = kFar;
+  for (const Tube& tube : tubes) {
+    const glm::dvec3 aside = p - tube.middle;
+    const double within = tube.reach + kFar;
+    if (glm::dot(aside, aside) > within * within) continue;
+    d = std::min(d, capsule(p, tube.a, tube.b, tube.radius_a, tube.radius_b));
+  }
   return d;
 }
 

@@ -15,9 +15,10 @@ inline double ball(const glm::dvec3& p, const glm::dvec3& centre, double radius)
 
 // Exact for a ball and on the surface, close to it elsewhere. At the centre itself some -radius.
 inline double ellipsoid(const glm::dvec3& p, const glm::dvec3& centre, const glm::dvec3& radii) {
-  const glm::dvec3 scaled = (p - centre) / radii;
+  const glm::dvec3 per_radius = 1.0 / radii;
+  const glm::dvec3 scaled = (p - centre) * per_radius;
   const double k0 = glm::length(scaled);
-  const double k1 = glm::length(scaled / radii);
+  const double k1 = glm::length(scaled * per_radius);
   if (k1 < 1e-9) return -std::min({radii.x, radii.y, radii.z});
   return k0 * (k0 - 1.0) / k1;
 }
