@@ -85,7 +85,7 @@ Json state_json(const SavedState& state, const Base& base, std::size_t phi) {
   return json;
 }
 
-std::string json_text(const SessionContents& contents, const std::vector<std::size_t>& phi_of) {
+std::string history_text(const SessionContents& contents, const std::vector<std::size_t>& phi_of) {
   const SavedHistory& history = contents.history;
   Json json{{"format", kHistoryFormat}, {"version", kVersion}, {"present", history.present}};
   const Index3 shape = history.states[history.present].phi->layout.page_shape();
@@ -211,7 +211,7 @@ HistoryEntries history_entries(const SessionContents& contents) {
   written.curve = contents.curve;
   HistoryForFile file = for_file(contents.history);
   written.history = std::move(file.history);
-  return {json_text(written, file.phi_of), std::move(file.phi)};
+  return {history_text(written, file.phi_of), std::move(file.phi)};
 }
 
 Status read_history(ZipReader& archive, SessionContents& contents, const std::string& file) {

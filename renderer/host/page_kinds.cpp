@@ -1,6 +1,6 @@
 #include "renderer/host/page_kinds.h"
 
-#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "renderer/host/shade_pieces.h"
 
@@ -44,15 +44,14 @@ PageKinds::PageKinds(HostScene& scene, const VolumeView& view, float step_mm) {
     return kind;
   };
   const bool labels = scene.labels.pages().show_at(view.label_opacity);
-  const auto is_seen = [&](int page) {
-    return kinds_[static_cast<std::size_t>(page)] != 0 ||
-           // It is closed where it meets the volume's border.
-           (view.surface && phi.is_inside(page)) ||
-           (labels && scene.labels.pages().pages()[static_cast<std::size_t>(page)] != 0);
-  };
   const glm::ivec3 grid = phi.page_grid();
-  first_ = view.quality.skip_empty ? grid : glm::ivec3(0);
-  end_ = view.quality.skip_empty ? glm::ivec3(0) : grid;
+  const auto is_seen = [&](int page, glm::ivec3 at) {
+    if (kinds_[static_cast<std::size_t>(page)] != 0 || !view.quality.skip_empty) return true;
+    if (labels && scene.labels.pages().pages()[static_cast<std::size_t>(page)] != 0) return true;
+    // The surface is closed where its inside meets the volume's border.
+    const bool on_border = glm::any(glm::equal(at, glm::ivec3(0))) || glm::any(glm::equal(at + 1, grid));
+    return on_border && view.surface && phi.is_inside(page);
+  };
   cube_grid_ = (grid + kSide - 1) / kSide;
   kinds_.resize(static_cast<std::size_t>(grid.x) * grid.y * grid.z);
   cubes_.assign(static_cast<std::size_t>(cube_grid_.x) * cube_grid_.y * cube_grid_.z, 0);
@@ -63,9 +62,7 @@ PageKinds::PageKinds(HostScene& scene, const VolumeView& view, float step_mm) {
       for (int x = 0; x < grid.x; ++x, ++page) {
         kinds_[static_cast<std::size_t>(page)] = kind_of(page);
         cubes[x / kSide] |= kinds_[static_cast<std::size_t>(page)];
-        if (!is_seen(page)) continue;
-        first_ = glm::min(first_, glm::ivec3(x, y, z));
-        end_ = glm::max(end_, glm::ivec3(x, y, z) + 1);
+        if (is_seen(page, {x, y, z})) seen_.emplace_back(x, y, z);
       }
     }
   }

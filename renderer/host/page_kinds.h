@@ -31,17 +31,14 @@ class PageKinds {
     const glm::ivec3 cube = page / kSide;
     return cubes_[static_cast<std::size_t>(cube.x + cube_grid_.x * (cube.y + cube_grid_.y * cube.z))] == 0;
   }
-  // The box of pages beyond which nothing is to be seen: its first page along each axis, and the first behind
-  // it. Without any such page the first are behind the others.
-  [[nodiscard]] glm::ivec3 first() const { return first_; }
-  [[nodiscard]] glm::ivec3 end() const { return end_; }
+  // The pages in which there may be something to see; with Quality::skip_empty off all of them.
+  [[nodiscard]] const std::vector<glm::ivec3>& seen() const { return seen_; }
 
  private:
   glm::ivec3 cube_grid_{0};
   std::vector<std::uint8_t> kinds_;
   std::vector<std::uint8_t> cubes_;
-  glm::ivec3 first_{0};
-  glm::ivec3 end_{0};
+  std::vector<glm::ivec3> seen_;
 };
 
 }  // namespace tidemark::renderer

@@ -44,7 +44,8 @@ RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
       direction_(glm::normalize(glm::vec3(voxel_from_view_[2]))),
       mm_(glm::length(direction_ * spacing_)),
       step_(static_cast<float>(view.quality.step_voxels)),
-      kinds_(scene, view, step_ * mm_) {
+      kinds_(scene, view, step_ * mm_),
+      spans_(kinds_, scene.phi.page_shape(), voxel_from_view_, size) {
   const Geometry& geometry = scene.geometry();
   pixel_mm_ = static_cast<float>(2.0 * view.camera.half_height_mm(geometry, size.aspect()) /
                                  static_cast<double>(size.height));
@@ -57,10 +58,6 @@ RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
   }
   viewer_ = -direction_ * spacing_ / mm_;
   if (view.clip) plane_ = clip_plane_in_voxels(*view.clip, geometry);
-  // Between pages phi belongs to both.
-  const glm::vec3 page(scene.phi.page_shape());
-  seen_low_ = glm::max(glm::vec3(kinds_.first()) * page - 1.0F, glm::vec3(0.0F)) - 0.5F;
-  seen_high_ = glm::min(glm::vec3(kinds_.end()) * page + 1.0F, volume_) - 0.5F;
   set_up_light();
   if (shows_source_) set_up_source();
 }
@@ -94,14 +91,13 @@ void RayCaster::set_up_source() {
 }
 
 // Finds where the ray is in the volume, and the parts of that in which things may show.
-RayCaster::Ray RayCaster::begin(glm::vec2 view_position) const {
+RayCaster::Ray RayCaster::begin(glm::vec2 view_position, glm::vec2 span) const {
   Ray ray;
   ray.start = glm::vec3(voxel_from_view_ * glm::vec4(view_position, -1.0F, 1.0F));
   ray.whole = within(ray, glm::vec3(-0.5F), volume_ - 0.5F);
   clip(ray);
-  const glm::vec2 seen = within(ray, seen_low_, seen_high_);
   for (glm::vec2* part : {&ray.for_surface, &ray.for_source}) {
-    *part = {std::max(part->x, seen.x), std::min(part->y, seen.y)};
+    *part = {std::max(part->x, span.x), std::min(part->y, span.y)};
   }
   return ray;
 }
@@ -380,9 +376,11 @@ void RayCaster::cast(Ray& ray) const {
 }
 
 glm::vec3 RayCaster::colour(std::int64_t x, std::int64_t y) const {
+  const glm::vec2 span = spans_.at(x, y);
+  if (span.x > span.y && !(plane_ && view_.clip->picture)) return view_.background;
   const glm::vec2 size(size_.width, size_.height);
   const glm::vec2 pixel(static_cast<float>(x) + 0.5F, static_cast<float>(size_.height - y) - 0.5F);
-  Ray ray = begin(2.0F * pixel / size - 1.0F);
+  Ray ray = begin(2.0F * pixel / size - 1.0F, span);
   ray.jitter = jitter(pixel, view_.quality.round);
   cast(ray);
   return glm::vec3(ray.result) + (1.0F - ray.result.a) * view_.background;
@@ -390,8 +388,10 @@ glm::vec3 RayCaster::colour(std::int64_t x, std::int64_t y) const {
 
 std::optional<Hit> RayCaster::pick(glm::dvec2 pixel) const {
   const glm::dvec2 size(size_.width, size_.height);
+  const glm::dvec2 inside = glm::clamp(pixel, glm::dvec2(0.0), size - 1.0);
   const glm::dvec2 place = 2.0 * (pixel + 0.5) / size - 1.0;
-  Ray ray = begin(glm::vec2(place.x, -place.y));
+  Ray ray = begin(glm::vec2(place.x, -place.y),
+                  spans_.at(static_cast<std::int64_t>(inside.x), static_cast<std::int64_t>(inside.y)));
   ray.picks = true;
   cast(ray);
   return ray.picked;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "renderer/host/page_kinds.h"
+#include "renderer/host/ray_spans.h"
 #include "renderer/host/shade_pieces.h"
 #include "renderer/host/speed_terms.h"
 #include "renderer/renderer.h"
@@ -71,7 +72,8 @@ class RayCaster {
 
   void set_up_source();
   void set_up_light();
-  [[nodiscard]] Ray begin(glm::vec2 view_position) const;
+  // In that part of it in which the picture shows anything there.
+  [[nodiscard]] Ray begin(glm::vec2 view_position, glm::vec2 span) const;
   // From where to where the ray is in a box.
   [[nodiscard]] glm::vec2 within(const Ray& ray, glm::vec3 low, glm::vec3 high) const;
   void clip(Ray& ray) const;
@@ -126,14 +128,13 @@ class RayCaster {
   float mm_;             // a unit of t
   float step_;
   PageKinds kinds_;
+  RaySpans spans_;
   glm::vec3 inverse_{0.0F};
   glm::ivec3 page_step_{1};    // along each axis, to the next page
   glm::ivec3 number_step_{1};  // of its number
   glm::vec3 viewer_{0.0F};     // unit vector to the viewer, in mm along the voxel axes
   float pixel_mm_ = 1.0F;
   std::optional<VoxelPlane> plane_;
-  glm::vec3 seen_low_{0.0F};  // the box, in voxels, beyond which nothing is to be seen
-  glm::vec3 seen_high_{0.0F};
 };
 
 }  // namespace tidemark::renderer
