@@ -28,8 +28,14 @@ endfunction()
 # For code whose time goes into what it calls: a test, a command, a panel.
 set(TIDEMARK_COMPILED_QUICKLY $<$<CONFIG:Release>:-O1>)
 
-# A test's code.
-set(TIDEMARK_TEST_OPTIONS ${TIDEMARK_COMPILED_QUICKLY})
+# A test's code: GCC compiles it in four fifths of the time with -Og, and in no less with -O0. It then finds values
+# uninitialized in the standard library that are not.
+set(TIDEMARK_TEST_OPTIONS $<$<CONFIG:Release>:-Og>
+    $<$<AND:$<CONFIG:Release>,$<COMPILE_LANG_AND_ID:CXX,GNU>>:-Wno-maybe-uninitialized>)
+# lld links a test program in a tenth of the time.
+find_program(TIDEMARK_LLD ld.lld)
+mark_as_advanced(TIDEMARK_LLD)
+set(TIDEMARK_TEST_LINK_OPTIONS $<$<BOOL:${TIDEMARK_LLD}>:-fuse-ld=lld>)
 if(CMAKE_UNITY_BUILD)
   # In a joined file a test's own types seem to be of a header.
   list(APPEND TIDEMARK_TEST_OPTIONS $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
@@ -91,6 +97,7 @@ function(tidemark_test_program name)
     tidemark_take_headers(${name} ${arg_HEADERS})
   endif()
   target_compile_options(${name} PRIVATE ${TIDEMARK_TEST_OPTIONS})
+  target_link_options(${name} PRIVATE ${TIDEMARK_TEST_LINK_OPTIONS})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(arg_RUNS)
     add_dependencies(${name} ${arg_RUNS})

@@ -13,10 +13,11 @@ tidemark_jobs() {
 # Where ccache knows nothing yet it asks the compiler, not the preprocessor, which headers were read.
 export CCACHE_DEPEND=1
 
-# tidemark_configure PRESET: build/PRESET, at first and after changes of the build's files.
+# tidemark_configure PRESET: build/PRESET, at first and after changes of the build's files, and again where packages were
+# installed since: they may hold what was not found.
 tidemark_configure() {
-  local preset=$1
-  if [[ ! -f $tidemark_root/build/$preset/build.ninja ]]; then
+  local preset=$1 made=$tidemark_root/build/$1/build.ninja
+  if [[ ! -f $made || /var/lib/dpkg/status -nt $made ]]; then
     echo "== Configuring $preset"
     (cd "$tidemark_root" && cmake --preset "$preset")
   else

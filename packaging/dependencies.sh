@@ -15,11 +15,11 @@ tidemark_packages=(
 if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then tidemark_packages+=(libqt6opengl6-dev); fi
 
 # Only tests need these: a screen that nobody sees, other readers and validators of DICOM, PACS servers, what makes and
-# looks at the Debian package, a second compiler with its sanitizers, the reference compiler of shaders, what makes the
+# looks at the Debian package, a second compiler with its sanitizers and a linker, the reference compiler of shaders, what makes the
 # handbook's HTML, a font for Chinese and Japanese, and schedulers of clusters.
 tidemark_test_packages=(
   xvfb xauth locales python3-pydicom python3-numpy dicom3tools dcm2niix plastimatch orthanc orthanc-dicomweb dcmtk openssl
-  dpkg-dev debhelper fakeroot file clang libclang-rt-dev glslang-tools python3-sphinx python3-myst-parser
+  dpkg-dev debhelper fakeroot file clang libclang-rt-dev lld glslang-tools python3-sphinx python3-myst-parser
   fonts-droid-fallback slurmctld slurmd slurm-client munge snakemake
 )
 

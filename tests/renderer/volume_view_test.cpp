@@ -100,6 +100,37 @@ class VolumeViewTest : public QObject {
     }
   }
 
+  // Near and far, beside the middle, and of a size that no block of rays divides.
+  void empty_pages_are_skipped_without_a_difference_data() {
+    QTest::addColumn<double>("azimuth");
+    QTest::addColumn<double>("elevation");
+    QTest::addColumn<double>("zoom");
+    QTest::addColumn<bool>("cut");
+    QTest::newRow("from the front") << 0.0 << 0.0 << 1.0 << false;
+    QTest::newRow("from aside") << 40.0 << -25.0 << 1.0 << false;
+    QTest::newRow("near") << 200.0 << 50.0 << 5.0 << false;
+    QTest::newRow("far") << -70.0 << 10.0 << 0.3 << false;
+    QTest::newRow("cut") << 30.0 << 20.0 << 1.5 << true;
+  }
+  void empty_pages_are_skipped_without_a_difference() {
+    QFETCH(double, azimuth);
+    QFETCH(double, elevation);
+    QFETCH(double, zoom);
+    QFETCH(bool, cut);
+    const Geometry geometry = grid({96, 70, 61}, {1.0, 1.0, 1.5});
+    const Scene scene = ball_scene(geometry, 18.0);
+    Painter draw(scene);
+    renderer::VolumeView view;
+    view.camera = {azimuth, elevation, zoom, scene.middle + glm::dvec3(9.0, 4.0, -12.0)};
+    view.quality.step_voxels = 0.05;  // so that it does not matter where a page's samples begin
+    if (cut) view.clip = renderer::ClipPlane{{0.0, -1.0, 0.0}, -scene.middle.y};
+    const renderer::Picture skipped = draw(view, 131, 77);
+    view.quality.skip_empty = false;
+    const GreyDifference difference = grey_difference(skipped, draw(view, 131, 77));
+    QVERIFY2(difference.of_99_percent <= 1 && difference.mean < 0.02, words(difference).constData());
+    QVERIFY(count(skipped, is_surface) > 100);
+  }
+
   // In one page as large as the volume nothing is translated: an unpacked copy of phi.
   void a_picture_from_pages_is_that_from_a_dense_copy_data() {
     QTest::addColumn<QString>("what");
