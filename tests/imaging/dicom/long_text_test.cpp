@@ -17,8 +17,10 @@ constexpr std::size_t kKiB = 1024;
 
 // That many bytes of values, with backslashes between them.
 std::string values(const std::string& one, std::size_t bytes) {
+  const std::string value = one + '\\';
   std::string all;
-  while (all.size() + one.size() + 1 < bytes) all += one + '\\';
+  all.reserve(bytes + value.size());
+  while (all.size() + value.size() < bytes) all += value;
   return all + one;
 }
 
