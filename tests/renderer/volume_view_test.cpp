@@ -109,7 +109,7 @@ class VolumeViewTest : public QObject {
     QTest::newRow("from the front") << 0.0 << 0.0 << 1.0 << false;
     QTest::newRow("from aside") << 40.0 << -25.0 << 1.0 << false;
     QTest::newRow("near") << 200.0 << 50.0 << 5.0 << false;
-    QTest::newRow("far") << -70.0 << 10.0 << 0.3 << false;
+    QTest::newRow("far") << -70.0 << 10.0 << 0.5 << false;
     QTest::newRow("cut") << 30.0 << 20.0 << 1.5 << true;
   }
   void empty_pages_are_skipped_without_a_difference() {
