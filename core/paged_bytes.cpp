@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <numeric>
 
 #include "core/paging/page_rows.h"
 
@@ -77,6 +78,19 @@ std::vector<std::uint8_t> PagedBytes::voxels() const {
   std::vector<std::uint8_t> all(static_cast<std::size_t>(size.x * size.y * size.z));
   read(Index3(0), size, all.data());
   return all;
+}
+
+std::array<std::int64_t, 256> PagedBytes::counts() const {
+  std::array<std::int64_t, 256> counts{};
+  for (const std::int64_t page : pages_.stored_pages()) {
+    const std::uint8_t* const values = pages_.values(page);
+    for (std::int64_t i = 0; i < kPageVoxels; ++i) ++counts[values[i]];
+  }
+  // Beyond the grid's end values are `rest`, too.
+  counts[rest_] = 0;
+  const Index3 size = this->size();
+  counts[rest_] = size.x * size.y * size.z - std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  return counts;
 }
 
 std::optional<std::uint8_t> PagedBytes::even_value(Index3 first, Index3 shape) const {

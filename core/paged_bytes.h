@@ -45,6 +45,8 @@ class PagedBytes {
   // The values of a box of the grid, i fastest.
   void read(Index3 first, Index3 shape, std::uint8_t* into) const;
   [[nodiscard]] std::vector<std::uint8_t> voxels() const;  // in voxel order
+  // How many voxels have each value.
+  [[nodiscard]] std::array<std::int64_t, 256> counts() const;
   // The one value of a box, where its pages say so without a look at voxels.
   [[nodiscard]] std::optional<std::uint8_t> even_value(Index3 first, Index3 shape) const;
 
@@ -58,7 +60,7 @@ class PagedBytes {
   void join_even_pages(const PagedBytes& since);
 
   // Calls visit(first voxel, length, value in a, value in b) for runs along i, at most a page long, in voxel
-  // order within eight rows of eight slices. Both are of one grid.
+  // order within eight rows of eight slices. Both are of one grid and have the same `rest`.
   template <class Visit>
   static void for_each_difference(const PagedBytes& a, const PagedBytes& b, const Visit& visit);
   // The same voxels.

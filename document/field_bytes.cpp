@@ -12,6 +12,7 @@ bool is_page_shape(Index3 shape) {
 void FieldBytes::add(const solver::Field& phi) {
   ++fields_;
   kept_.push_back(phi.pages);
+  voxels_per_page_ = static_cast<std::size_t>(phi.layout.voxels_per_page());
   tables_.reserve(tables_.size() + static_cast<std::size_t>(phi.layout.page_count()));
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     const solver::Field::Kind kind = phi.pages.kind(page);
@@ -21,25 +22,38 @@ void FieldBytes::add(const solver::Field& phi) {
 }
 
 std::int32_t FieldBytes::number_of(const solver::Field& phi, std::int64_t page) {
-  const std::int64_t voxels = phi.layout.voxels_per_page();
   const float* const values = phi.pages.values(page);
-  const auto next = static_cast<std::int32_t>(static_cast<std::int64_t>(pages_.size()) / voxels);
+  const auto next = static_cast<std::int32_t>(pages_.size());
   const auto [known, is_new] = numbers_.try_emplace(values, next);
   if (!is_new) return known->second;
-  pages_.insert(pages_.end(), values, values + voxels);
+  pages_.push_back(values);
   const Index3 shape = phi.layout.page_shape();
   const Index3 valid = phi.layout.valid_shape(page);
   if (valid == shape) return next;
-  float* const written = pages_.data() + next * voxels;
+  const std::int64_t voxels = phi.layout.voxels_per_page();
+  float* const written = padded_.emplace_back(std::make_unique<float[]>(voxels_per_page_)).get();
   for (std::int64_t i = 0; i < voxels; ++i) {
     const Index3 v(i % shape.x, i / shape.x % shape.y, i / (shape.x * shape.y));
-    if (v.x >= valid.x || v.y >= valid.y || v.z >= valid.z) written[i] = static_cast<float>(-phi.band);
+    const bool is_padding = v.x >= valid.x || v.y >= valid.y || v.z >= valid.z;
+    written[i] = is_padding ? static_cast<float>(-phi.band) : values[i];
   }
+  pages_.back() = written;
   return next;
 }
 
 std::int64_t FieldBytes::bytes() const {
-  return static_cast<std::int64_t>(pages_.size() * sizeof(float) + tables_.size() * sizeof(std::int32_t));
+  return static_cast<std::int64_t>(pages_.size() * voxels_per_page_ * sizeof(float) +
+                                   tables_.size() * sizeof(std::int32_t));
+}
+
+ZipEntry FieldBytes::tables_entry(std::string_view name) const {
+  return {name, std::as_bytes(std::span(tables_))};
+}
+
+ZipEntry FieldBytes::pages_entry(std::string_view name) const {
+  return {name, pages_.size() * voxels_per_page_ * sizeof(float), [this](std::size_t number) {
+            return number < pages_.size() ? std::as_bytes(page(number)) : std::span<const std::byte>();
+          }};
 }
 
 Result<std::vector<std::shared_ptr<const solver::Field>>> fields_from_file(

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
 #include "core/result.h"
+#include "document/zip_archive.h"
 #include "solver/field.h"
 
 namespace tidemark::document {
@@ -24,15 +26,23 @@ class FieldBytes {
   // One after the other. For each virtual page int32: the number of its page, kOutsideEntry or kInsideEntry.
   [[nodiscard]] const std::vector<std::int32_t>& tables() const { return tables_; }
   // The pages by their numbers. Every padding voxel is set, so that equal fields give equal bytes.
-  [[nodiscard]] const std::vector<float>& pages() const { return pages_; }
+  [[nodiscard]] std::size_t pages() const { return pages_.size(); }
+  [[nodiscard]] std::span<const float> page(std::size_t number) const {
+    return {pages_[number], voxels_per_page_};
+  }
   [[nodiscard]] std::int64_t bytes() const;
+  // Both as entries of an archive, as long as this lives.
+  [[nodiscard]] ZipEntry tables_entry(std::string_view name) const;
+  [[nodiscard]] ZipEntry pages_entry(std::string_view name) const;
 
  private:
   std::int32_t number_of(const solver::Field& phi, std::int64_t page);
 
   std::size_t fields_ = 0;
   std::vector<std::int32_t> tables_;
-  std::vector<float> pages_;
+  std::size_t voxels_per_page_ = 0;
+  std::vector<const float*> pages_;                         // in kept_, or in padded_
+  std::vector<std::unique_ptr<float[]>> padded_;            // those that reach beyond the volume
   std::unordered_map<const float*, std::int32_t> numbers_;  // of pages that lie at a place
   std::vector<SharedPages> kept_;                           // so that no other page comes to lie there
 };

@@ -1,7 +1,6 @@
 #include "document/history_file.h"
 
 #include <algorithm>
-#include <cstring>
 #include <span>
 #include <utility>
 
@@ -99,15 +98,6 @@ std::string history_text(const SessionContents& contents, const std::vector<std:
 
 // Reading.
 
-template <class Number>
-Result<std::vector<Number>> read_numbers(ZipReader& archive, std::string_view name, std::size_t count) {
-  auto bytes = archive.read(name, count * sizeof(Number));
-  if (!bytes) return pass_on(bytes);
-  std::vector<Number> numbers(count);
-  if (count > 0) std::memcpy(numbers.data(), bytes->data(), bytes->size());
-  return numbers;
-}
-
 ChangeDescription read_change(const JsonField& field) {
   ChangeDescription change;
   change.kind = static_cast<ChangeKind>(field.at("kind").word(kKinds));
@@ -179,13 +169,13 @@ Status read_phi(ZipReader& archive, SessionContents& contents, const std::vector
   const solver::Field& present = *contents.phi;
   const std::size_t states = history.states.size();
   const auto length = static_cast<std::size_t>(present.layout.page_count());
-  auto tables = read_numbers<std::int32_t>(archive, kHistoryTables, states * length);
+  auto tables = archive.read<std::int32_t>(kHistoryTables, states * length);
   if (!tables) return pass_on(tables);
   const std::size_t page_bytes = static_cast<std::size_t>(present.layout.voxels_per_page()) * sizeof(float);
   const std::size_t size = archive.size(kHistoryPages);
   if (size % page_bytes != 0 || size / page_bytes > static_cast<std::size_t>(kMostPages))
     return fail(ErrorKind::input, "{}: {} bytes of pages are no pages", what, size);
-  auto pages = read_numbers<float>(archive, kHistoryPages, size / sizeof(float));
+  auto pages = archive.read<float>(kHistoryPages, size / sizeof(float));
   if (!pages) return pass_on(pages);
   auto fields =
       fields_from_file(present.geometry, present.band, present.layout.page_shape(), *tables, *pages, what);
@@ -201,8 +191,8 @@ Status read_phi(ZipReader& archive, SessionContents& contents, const std::vector
 
 std::vector<ZipEntry> HistoryEntries::entries() const {
   return {{kHistoryJson, std::as_bytes(std::span(json))},
-          {kHistoryTables, std::as_bytes(std::span(phi.tables()))},
-          {kHistoryPages, std::as_bytes(std::span(phi.pages()))}};
+          phi.tables_entry(kHistoryTables),
+          phi.pages_entry(kHistoryPages)};
 }
 
 HistoryEntries history_entries(const SessionContents& contents) {

@@ -244,12 +244,10 @@ Status Labels::check(const std::vector<Label>& list, const PagedBytes& voxels) c
     return fail(ErrorKind::usage, "{} labelled voxels, the volume has {}", size.x * size.y * size.z,
                 geometry_.voxel_count());
   }
-  for (std::int64_t page = 0; page < voxels.layout().page_count(); ++page) {
-    const std::uint8_t* const values = voxels.page(page);
-    if (values == nullptr) continue;
-    const std::uint8_t* const end = values + voxels.layout().voxels_per_page();
-    const auto* const stray = std::find_if(values, end, [&](std::uint8_t id) { return !known[id]; });
-    if (stray != end) return fail(ErrorKind::usage, "a voxel has label {}, which is not in the list", *stray);
+  const std::array<std::int64_t, 256> counts = voxels.counts();
+  for (std::size_t id = 0; id < counts.size(); ++id) {
+    if (counts[id] > 0 && !known[id])
+      return fail(ErrorKind::usage, "a voxel has label {}, which is not in the list", id);
   }
   return {};
 }

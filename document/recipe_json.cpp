@@ -91,9 +91,14 @@ std::vector<Number> read_numbers(const JsonField& field, std::size_t count) {
 
 Json to_json(const solver::Field& phi) {
   const FieldBytes bytes(phi);
+  std::vector<float> pages;
+  for (std::size_t n = 0; n < bytes.pages(); ++n) {
+    const auto page = bytes.page(n);
+    pages.insert(pages.end(), page.begin(), page.end());
+  }
   return {{"grid", tidemark::document::to_json(phi.geometry)}, {"band", phi.band},
           {"page_shape", index_json(phi.layout.page_shape())}, {"resident_pages", phi.pages.stored()},
-          {"table", packed_numbers(bytes.tables())},           {"pages", packed_numbers(bytes.pages())}};
+          {"table", packed_numbers(bytes.tables())},           {"pages", packed_numbers(pages)}};
 }
 
 std::shared_ptr<const solver::Field> read_field(const JsonField& field) {

@@ -1,7 +1,7 @@
 #include "document/session_file.h"
 
+#include <algorithm>
 #include <array>
-#include <cstring>
 #include <map>
 #include <utility>
 
@@ -212,15 +212,6 @@ Json session_json(const SessionContents& contents, const std::filesystem::path& 
   return json;
 }
 
-template <class Number>
-Result<std::vector<Number>> read_numbers(ZipReader& archive, std::string_view name, std::int64_t count) {
-  auto bytes = archive.read(name, static_cast<std::size_t>(count) * sizeof(Number));
-  if (!bytes) return pass_on(bytes);
-  std::vector<Number> numbers(static_cast<std::size_t>(count));
-  if (count > 0) std::memcpy(numbers.data(), bytes->data(), bytes->size());
-  return numbers;
-}
-
 Result<std::shared_ptr<const solver::Field>> read_phi(ZipReader& archive, const JsonField& field,
                                                       const Geometry& geometry, const std::string& file) {
   const double band = field.at("band").number(2.0, 1e6);
@@ -230,19 +221,65 @@ Result<std::shared_ptr<const solver::Field>> read_phi(ZipReader& archive, const 
   const PageLayout layout(geometry.size, shape);
   const std::int64_t resident = field.at("resident_pages").integer(0, layout.page_count());
   if (!field.good()) return pass_on(field.status());
-  auto table = read_numbers<std::int32_t>(archive, kTable, layout.page_count());
+  auto table = archive.read<std::int32_t>(kTable, static_cast<std::size_t>(layout.page_count()));
   if (!table) return pass_on(table);
-  auto pages = read_numbers<float>(archive, kPages, resident * layout.voxels_per_page());
+  auto pages = archive.read<float>(kPages, static_cast<std::size_t>(resident * layout.voxels_per_page()));
   if (!pages) return pass_on(pages);
   return field_from_file(geometry, band, shape, *table, *pages, file + ": phi");
+}
+
+// The slices of a grid that are read or written at a time: those of a layer of pages.
+std::size_t layer_voxels(Index3 size) {
+  return static_cast<std::size_t>(size.x * size.y * std::min(size.z, PagedBytes::kPageShape.z));
+}
+
+// An entry of as many bytes as the grid has voxels, of which no more than a layer is there at a time.
+Result<PagedBytes> read_layers(ZipReader& archive, std::string_view name, Index3 size) {
+  PagedBytes voxels(size);
+  std::vector<std::uint8_t> layer;
+  std::int64_t slice = 0;
+  const auto put = [&] {
+    const PagedBytes before = voxels;
+    const std::int64_t slices = static_cast<std::int64_t>(layer.size()) / (size.x * size.y);
+    voxels.write({0, 0, slice}, {size.x, size.y, slices}, layer.data());
+    voxels.join_even_pages(before);
+    slice += slices;
+    layer.clear();
+  };
+  const auto bytes = static_cast<std::size_t>(size.x * size.y * size.z);
+  TIDEMARK_TRY(archive.unpack(name, bytes, [&](std::span<const std::uint8_t> piece) -> Status {
+    layer.reserve(layer_voxels(size));
+    while (!piece.empty()) {
+      const auto part = piece.first(std::min(piece.size(), layer_voxels(size) - layer.size()));
+      layer.insert(layer.end(), part.begin(), part.end());
+      piece = piece.subspan(part.size());
+      if (layer.size() == layer_voxels(size)) put();
+    }
+    return {};
+  }));
+  if (!layer.empty()) put();
+  return voxels;
+}
+
+ZipEntry layers_entry(std::string_view name, const PagedBytes& voxels) {
+  const Index3 size = voxels.size();
+  const auto bytes = static_cast<std::size_t>(size.x * size.y * size.z);
+  return {name, bytes,
+          [&voxels, size, layer = std::vector<std::uint8_t>(layer_voxels(size))](std::size_t number) mutable {
+            const std::int64_t slice = static_cast<std::int64_t>(number) * PagedBytes::kPageShape.z;
+            const std::int64_t slices = std::min(PagedBytes::kPageShape.z, size.z - slice);
+            if (slices <= 0) return std::span<const std::byte>();
+            voxels.read({0, 0, slice}, {size.x, size.y, slices}, layer.data());
+            return std::as_bytes(std::span(layer).first(static_cast<std::size_t>(size.x * size.y * slices)));
+          }};
 }
 
 Status read_label_voxels(ZipReader& archive, SessionContents& contents, const std::string& file) {
   PagedBytes voxels(contents.geometry.size);
   if (archive.has(kLabels)) {
-    const auto read = read_numbers<std::uint8_t>(archive, kLabels, contents.geometry.voxel_count());
+    auto read = read_layers(archive, kLabels, contents.geometry.size);
     if (!read) return pass_on(read);
-    voxels = PagedBytes(contents.geometry.size, *read);
+    voxels = std::move(*read);
   }
   Labels trial(contents.geometry);
   if (const Status good = trial.assign(contents.labels, voxels); !good) {
@@ -254,7 +291,7 @@ Status read_label_voxels(ZipReader& archive, SessionContents& contents, const st
 
 Status read_truth(ZipReader& archive, SessionContents& contents) {
   if (!archive.has(kTruth)) return {};
-  auto voxels = read_numbers<std::uint8_t>(archive, kTruth, contents.geometry.voxel_count());
+  auto voxels = archive.read<std::uint8_t>(kTruth, static_cast<std::size_t>(contents.geometry.voxel_count()));
   if (!voxels) return pass_on(voxels);
   contents.truth = std::make_shared<const Mask>(Mask{contents.geometry, std::move(*voxels)});
   return {};
@@ -303,14 +340,9 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
     return fail(ErrorKind::write, "{}", again.error().message);
   }
   const FieldBytes phi(*contents.phi);
-  std::vector<ZipEntry> entries{{kJson, std::as_bytes(std::span(json))},
-                                {kTable, std::as_bytes(std::span(phi.tables()))},
-                                {kPages, std::as_bytes(std::span(phi.pages()))}};
-  std::vector<std::uint8_t> labels;
-  if (contents.label_voxels) {
-    labels = contents.label_voxels->voxels();
-    entries.push_back({kLabels, std::as_bytes(std::span(labels))});
-  }
+  std::vector<ZipEntry> entries{
+      {kJson, std::as_bytes(std::span(json))}, phi.tables_entry(kTable), phi.pages_entry(kPages)};
+  if (contents.label_voxels) entries.push_back(layers_entry(kLabels, *contents.label_voxels));
   if (contents.truth) entries.push_back({kTruth, std::as_bytes(std::span(contents.truth->voxels))});
   HistoryEntries history;
   if (what == InFile::all && !contents.history.empty()) {

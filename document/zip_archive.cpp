@@ -3,7 +3,7 @@
 #include <zip.h>
 
 #include <algorithm>
-#include <cstring>
+#include <deque>
 #include <utility>
 
 namespace tidemark::document {
@@ -19,6 +19,64 @@ std::string reason(int code) {
   zip_error_fini(&error);
   return text;
 }
+
+// An entry as libzip asks for it.
+class EntrySource {
+ public:
+  explicit EntrySource(const ZipEntry& entry) : entry_(entry) { zip_error_init(&error_); }
+
+  static zip_int64_t call(void* self, void* data, zip_uint64_t length, zip_source_cmd_t command) {
+    return static_cast<EntrySource*>(self)->answer(data, length, command);
+  }
+
+ private:
+  zip_int64_t answer(void* data, zip_uint64_t length, zip_source_cmd_t command) {
+    switch (command) {
+      case ZIP_SOURCE_SUPPORTS:
+        return zip_source_make_command_bitmap(ZIP_SOURCE_OPEN, ZIP_SOURCE_READ, ZIP_SOURCE_CLOSE,
+                                              ZIP_SOURCE_STAT, ZIP_SOURCE_ERROR, ZIP_SOURCE_FREE, -1);
+      case ZIP_SOURCE_STAT: {
+        auto* const stat = static_cast<zip_stat_t*>(data);
+        zip_stat_init(stat);
+        stat->size = entry_.bytes;
+        stat->valid = ZIP_STAT_SIZE;
+        return sizeof(zip_stat_t);
+      }
+      case ZIP_SOURCE_OPEN:
+        next_ = 0;
+        rest_ = {};
+        return 0;
+      case ZIP_SOURCE_READ:
+        return static_cast<zip_int64_t>(read({static_cast<std::byte*>(data), length}));
+      case ZIP_SOURCE_CLOSE:
+      case ZIP_SOURCE_FREE:
+        return 0;
+      case ZIP_SOURCE_ERROR:
+        return zip_error_to_data(&error_, data, length);
+      default:
+        zip_error_set(&error_, ZIP_ER_OPNOTSUPP, 0);
+        return -1;
+    }
+  }
+
+  std::size_t read(std::span<std::byte> into) {
+    std::size_t done = 0;
+    while (done < into.size()) {
+      if (rest_.empty()) rest_ = entry_.piece(next_++);
+      if (rest_.empty()) break;
+      const std::size_t count = std::min(rest_.size(), into.size() - done);
+      std::copy_n(rest_.begin(), count, into.begin() + static_cast<std::ptrdiff_t>(done));
+      rest_ = rest_.subspan(count);
+      done += count;
+    }
+    return done;
+  }
+
+  const ZipEntry& entry_;
+  std::size_t next_ = 0;             // piece
+  std::span<const std::byte> rest_;  // of the one before
+  zip_error_t error_;
+};
 
 }  // namespace
 
@@ -57,7 +115,7 @@ std::size_t ZipReader::packed_size(std::string_view name) const {
   return found == entries_.end() ? 0 : static_cast<std::size_t>(found->second->packed);
 }
 
-Result<std::vector<std::byte>> ZipReader::read(std::string_view name, std::size_t bytes) {
+Status ZipReader::unpack(std::string_view name, std::size_t bytes, const Take& take) {
   const auto found = entries_.find(name);
   if (found == entries_.end()) return fail(ErrorKind::input, "{}: {} is missing", file_, name);
   const imaging::ZipRecord& record = *found->second;
@@ -67,16 +125,9 @@ Result<std::vector<std::byte>> ZipReader::read(std::string_view name, std::size_
   if (static_cast<std::int64_t>(bytes / kMostPerByte) > record.packed) {
     return fail(ErrorKind::input, "{}: {} cannot hold {} bytes", file_, name, bytes);
   }
-  std::vector<std::byte> contents(bytes);
-  std::size_t done = 0;
-  const Status unpacked = directory_->unpack(record, [&](std::span<const std::uint8_t> piece) -> Status {
-    std::memcpy(contents.data() + done, piece.data(), piece.size());
-    done += piece.size();
-    return {};
-  });
-  if (!unpacked)
+  if (const Status unpacked = directory_->unpack(record, take); !unpacked)
     return fail(ErrorKind::input, "{}: {} is damaged: {}", file_, name, unpacked.error().message);
-  return contents;
+  return {};
 }
 
 Status write_zip(const std::filesystem::path& file, std::span<const ZipEntry> entries) {
@@ -85,9 +136,10 @@ Status write_zip(const std::filesystem::path& file, std::span<const ZipEntry> en
   if (archive == nullptr) {
     return fail(ErrorKind::write, "cannot write: {}", reason(code));
   }
+  std::deque<EntrySource> sources;
   bool good = true;
   for (const ZipEntry& entry : entries) {
-    zip_source_t* source = zip_source_buffer(archive, entry.bytes.data(), entry.bytes.size(), 0);
+    zip_source_t* source = zip_source_function(archive, EntrySource::call, &sources.emplace_back(entry));
     const zip_int64_t index =
         source == nullptr ? -1
                           : zip_file_add(archive, std::string(entry.name).c_str(), source, ZIP_FL_ENC_UTF_8);

@@ -1,6 +1,5 @@
 #include "engine/label_finisher.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -10,18 +9,6 @@ namespace tidemark::engine {
 namespace {
 
 using Preview = std::shared_ptr<const LabelPreview>;
-
-// How many voxels have one of the labels, of which 0 is none.
-std::int64_t count(const PagedBytes& voxels, const std::array<bool, 256>& labels) {
-  std::int64_t count = 0;
-  for (std::int64_t page = 0; page < voxels.layout().page_count(); ++page) {
-    const std::uint8_t* const values = voxels.page(page);
-    if (values == nullptr) continue;
-    count += std::count_if(values, values + voxels.layout().voxels_per_page(),
-                           [&](std::uint8_t id) { return labels[id]; });
-  }
-  return count;
-}
 
 Result<Preview> computed(LabelPreview preview, const Progress& progress) {
   const document::LabelVoxels& from = preview.from;
@@ -33,10 +20,13 @@ Result<Preview> computed(LabelPreview preview, const Progress& progress) {
   TIDEMARK_TRY(after->assign(from.list, before));
   const auto accepted = after->finish(preview.regions, preview.take);
   if (!accepted) return pass_on(accepted);
-  std::array<bool, 256> changed{};
-  for (const document::LabelRegion& region : preview.regions) changed[region.label] = region.label != 0;
+  std::array<std::int64_t, 256> counts = before.counts();
+  counts[0] = 0;  // a new label's
+  std::int64_t changed = 0;
+  for (const document::LabelRegion& region : preview.regions)
+    changed += std::exchange(counts[region.label], 0);
   const double voxel_ml = from.geometry.voxel_volume_ml();
-  if (from.voxels) preview.before_ml = static_cast<double>(count(*from.voxels, changed)) * voxel_ml;
+  preview.before_ml = static_cast<double>(changed) * voxel_ml;
   preview.after_ml = static_cast<double>(accepted->taken) * voxel_ml;
   preview.changes = after->voxels() != before;
   preview.after = std::move(after);

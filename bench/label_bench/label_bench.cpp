@@ -1,4 +1,5 @@
-// How long the tools that finish labels take and how much memory, a dab of their brush, and filled slices.
+// How long the tools that finish labels take and how much memory, a dab of their brush, a session file of the
+// labels, and filled slices.
 //
 // `label_bench` has 20 labels on 512 x 512 x 600 voxels; each tool works on the largest one and on all.
 // Memory is the peak beside the labels, in bytes a voxel. `label_bench FILE [LABEL]` takes every fourth slice
@@ -7,11 +8,13 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <random>
 
 #include "bench/peak_memory.h"
 #include "document/label_tool.h"
 #include "document/region_statistics.h"
+#include "document/session_file.h"
 #include "imaging/load_study.h"
 #include "imaging/regions/fill_slices.h"
 #include "renderer/label_volume.h"
@@ -164,6 +167,37 @@ void time_dabs() {
   }
 }
 
+// A session file of the labels: what is there beside them meanwhile, in bytes a voxel.
+void time_session() {
+  const document::LabelVoxels from = labelled_volume();
+  document::SessionContents contents;
+  contents.origin.phantom = "balls";
+  contents.geometry = from.geometry;
+  contents.recipe.source.size = from.geometry.size;
+  contents.phi =
+      std::make_shared<const solver::Field>(solver::Field::empty(from.geometry, 3.0, kDefaultPageShape));
+  contents.labels = from.list;
+  contents.label_voxels = from.voxels;
+  const auto file = std::filesystem::temp_directory_path() / "tidemark-label-bench.tidemark";
+  const auto timed = [&](const char* name, const auto& work) {
+    const bench::PeakMemory memory;
+    const Watch watch;
+    if (const Status done = work(); !done) {
+      fmt::print(stderr, "{}\n", done.error().message);
+      std::exit(1);
+    }
+    fmt::print("{:<28} {:>9.2f} s {:>9.2f} bytes a voxel\n", name, watch.seconds(),
+               static_cast<double>(memory.bytes()) / static_cast<double>(from.geometry.voxel_count()));
+  };
+  fmt::print("\n");
+  timed("session file written", [&] { return document::write_session(contents, file); });
+  timed("read", [&]() -> Status {
+    const auto read = document::load_session(file);
+    return read ? Status() : Status(pass_on(read));
+  });
+  std::filesystem::remove(file);
+}
+
 int fill_slices(const char* file, const char* label) {
   const auto volume = imaging::load_volume(file);
   if (!volume) {
@@ -196,5 +230,6 @@ int main(int argc, char** argv) {
   if (argc > 1) return fill_slices(argv[1], argc > 2 ? argv[2] : nullptr);
   time_tools();
   time_dabs();
+  time_session();
   return 0;
 }

@@ -135,7 +135,7 @@ T* BasicSharedPages<T>::store(std::int64_t page) {
 
 template <class T>
 T* BasicSharedPages<T>::change(std::int64_t page) {
-  if (T* const own = entry(page).get(); entry(page).use_count() == 1) return own;
+  if (const Page& there = entry(page); there.use_count() == 1) return there.get();
   const Page former = held(page);
   T* const values = store(page);
   std::copy_n(former.get(), voxels_per_page_, values);

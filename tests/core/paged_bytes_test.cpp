@@ -73,6 +73,9 @@ class PagedBytesTest : public QObject {
           for_each_voxel(first, shape, [&](Index3 v) { voxels[offset(v)] = values[at++]; });
         }
         QVERIFY(bytes.voxels() == voxels);
+        std::array<std::int64_t, 256> counts{};
+        for (const std::uint8_t value : voxels) ++counts[value];
+        QVERIFY(bytes.counts() == counts);
         const auto [low, part] = boxes.next();
         std::vector<std::uint8_t> there(static_cast<std::size_t>(part.x * part.y * part.z));
         bytes.read(low, part, there.data());
