@@ -174,6 +174,7 @@ void time_session() {
   contents.origin.phantom = "balls";
   contents.geometry = from.geometry;
   contents.recipe.source.size = from.geometry.size;
+  contents.recipe.executor = {.name = "host", .page_shape = kDefaultPageShape};
   contents.phi =
       std::make_shared<const solver::Field>(solver::Field::empty(from.geometry, 3.0, kDefaultPageShape));
   contents.labels = from.list;
