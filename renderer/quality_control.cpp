@@ -51,7 +51,7 @@ void PictureMean::add(const Picture& picture) {
 }
 
 Picture PictureMean::mean() const {
-  // A table of what a sum gives: a division for each byte takes as long as a picture of a surface.
+  // Divided once for each sum that there may be, and not for each byte.
   const auto count = static_cast<std::uint32_t>(std::max(count_, 1));
   std::vector<std::uint8_t> mean_of(255 * std::size_t{count} + 1);
   for (std::uint32_t sum = 0; sum < mean_of.size(); ++sum) {

@@ -1,6 +1,7 @@
 #include "imaging/phantom/noise.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -83,6 +84,7 @@ Wave wave(double turns) {
 
 RandomWaves::RandomWaves(std::uint64_t seed, int waves, double shortest_mm, double longest_mm)
     : count_(static_cast<std::size_t>(waves)), amplitude_(std::sqrt(2.0 / waves)) {
+  assert(count_ <= kMost);
   for (std::size_t i = 0; i < count_; ++i) {
     const double length = shortest_mm + (longest_mm - shortest_mm) * uniform(hash(seed, 1), i);
     const glm::dvec3 turns_per_mm = direction(hash(seed, 2), i) / length;
