@@ -115,7 +115,7 @@ std::size_t ZipReader::packed_size(std::string_view name) const {
   return found == entries_.end() ? 0 : static_cast<std::size_t>(found->second->packed);
 }
 
-Status ZipReader::unpack(std::string_view name, std::size_t bytes, const Take& take) {
+Status ZipReader::unpack(std::string_view name, std::size_t bytes, const imaging::ZipDirectory::Take& take) {
   const auto found = entries_.find(name);
   if (found == entries_.end()) return fail(ErrorKind::input, "{}: {} is missing", file_, name);
   const imaging::ZipRecord& record = *found->second;

@@ -32,8 +32,7 @@ class ZipReader {
   // Calls take(piece) for piece after piece of the entry, which must have exactly `bytes` bytes, until it
   // fails. Fails (ErrorKind::input), naming the file, before the first one where so many compressed bytes
   // cannot hold them.
-  using Take = std::function<Status(std::span<const std::uint8_t> piece)>;
-  Status unpack(std::string_view name, std::size_t bytes, const Take& take);
+  Status unpack(std::string_view name, std::size_t bytes, const imaging::ZipDirectory::Take& take);
   // The whole entry, as so many numbers. Takes memory for what the archive can hold alone.
   template <class Number = std::byte>
   Result<std::vector<Number>> read(std::string_view name, std::size_t count);

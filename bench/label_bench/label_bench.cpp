@@ -74,8 +74,7 @@ document::LabelVoxels labelled_volume() {
   return volume;
 }
 
-void time_tools() {
-  const document::LabelVoxels volume = labelled_volume();
+void time_tools(const document::LabelVoxels& volume) {
   std::vector<std::uint8_t> all;
   for (const document::Label& label : volume.list) all.push_back(label.id);
   document::Labels labels(volume.geometry);
@@ -111,8 +110,7 @@ void time_tools() {
 }
 
 // Dabs of 10 mm at the border of the large ball: what the engine does of them, and the renderer for 3D.
-void time_dabs() {
-  const document::LabelVoxels from = labelled_volume();
+void time_dabs(const document::LabelVoxels& from) {
   document::Labels labels(from.geometry);
   if (!labels.assign(from.list, *from.voxels)) std::exit(1);
   Volume source;
@@ -168,8 +166,7 @@ void time_dabs() {
 }
 
 // A session file of the labels: what is there beside them meanwhile, in bytes a voxel.
-void time_session() {
-  const document::LabelVoxels from = labelled_volume();
+void time_session(const document::LabelVoxels& from) {
   document::SessionContents contents;
   contents.origin.phantom = "balls";
   contents.geometry = from.geometry;
@@ -229,8 +226,9 @@ int fill_slices(const char* file, const char* label) {
 
 int main(int argc, char** argv) {
   if (argc > 1) return fill_slices(argv[1], argc > 2 ? argv[2] : nullptr);
-  time_tools();
-  time_dabs();
-  time_session();
+  const document::LabelVoxels volume = labelled_volume();
+  time_tools(volume);
+  time_dabs(volume);
+  time_session(volume);
   return 0;
 }

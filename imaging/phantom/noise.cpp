@@ -99,9 +99,9 @@ RandomWaves::Sample RandomWaves::sample(const glm::dvec3& p_mm) const {
   std::array<double, kMost> values;
   std::array<double, kMost> slopes;
   for (std::size_t i = 0; i < count_; ++i) {
-    const Angle a = angle(turns(i, p_mm));
-    values[i] = sine(a);
-    slopes[i] = kTwoPi * cosine(a);
+    const Wave w = wave(turns(i, p_mm));
+    values[i] = w.value;
+    slopes[i] = w.slope;
   }
   Sample sum{0.0, glm::dvec3(0.0)};
   for (std::size_t i = 0; i < count_; ++i) {
