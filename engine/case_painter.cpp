@@ -228,13 +228,17 @@ Result<ShownPicture> CasePainter::paint(ViewSlot& slot, const View& view, render
     shown.texture = std::move(*texture);
     return shown;
   }
-  auto picture = canvas.renderer->draw(view, size, progress);
+  if constexpr (std::is_same_v<View, renderer::VolumeView>) {
+    if (into_mean) {
+      TIDEMARK_TRY(canvas.renderer->add_round(view, size, slot.mean, progress));
+      if (canvas.gl != nullptr) ++pictures_read_back_;
+      shown.image = to_image(slot.mean.mean());
+      return shown;
+    }
+  }
+  const auto picture = canvas.renderer->draw(view, size, progress);
   if (!picture) return pass_on(picture);
   if (canvas.gl != nullptr) ++pictures_read_back_;
-  if (into_mean) {
-    slot.mean.add(*picture);
-    *picture = slot.mean.mean();
-  }
   shown.image = to_image(*picture);
   return shown;
 }

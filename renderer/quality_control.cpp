@@ -16,26 +16,45 @@ std::optional<Pass> QualityControl::next(PictureSize full, int rounds) const {
     return Pass{full, quality, false};
   }
   // The first picture of a study tells how long its pixels take; it is small to be safe.
-  std::int64_t divisor = kSmallest;
-  if (pixel_seconds_) {
-    divisor = 1;
-    const auto seconds = [&](std::int64_t d) {
-      const std::int64_t pixels = (full.width / d) * (full.height / d);
-      return *pixel_seconds_ * static_cast<double>(pixels);
-    };
-    while (divisor < kSmallest && seconds(divisor) > budget_seconds_) ++divisor;
-  }
+  int divisor = 1;
+  const auto too_slow = [&] {
+    const auto pixel_seconds = expected_pixel_seconds(divisor);
+    const double budget = divisor == 2 ? kForHalf * kInteractive : kInteractive;
+    return !pixel_seconds || *pixel_seconds * static_cast<double>(full.width / divisor) *
+                                     static_cast<double>(full.height / divisor) >
+                                 budget;
+  };
+  while (divisor < kSmallest && too_slow()) ++divisor;
   return Pass{
       {std::max<std::int64_t>(1, full.width / divisor), std::max<std::int64_t>(1, full.height / divisor)},
       kMovingQuality,
-      true};
+      true,
+      divisor};
+}
+
+// By the next coarser pictures that are known. Where rays are nearer to one another they find more of what
+// they read in caches, so that the next size is worth a try.
+std::optional<double> QualityControl::expected_pixel_seconds(int divisor) const {
+  constexpr double kNearer = 0.85;
+  if (const auto known = pixel_seconds_[static_cast<std::size_t>(divisor)]) return known;
+  for (int coarser = divisor + 1; coarser <= kSmallest; ++coarser) {
+    const auto known = pixel_seconds_[static_cast<std::size_t>(coarser)];
+    if (known) return coarser == divisor + 1 ? kNearer * *known : *known;
+  }
+  return std::nullopt;
 }
 
 void QualityControl::drawn(const Pass& pass, double seconds) {
   if (pass.moving) {
     const double measured = seconds / static_cast<double>(pass.size.width * pass.size.height);
-    // Half of what it was before: one slow picture on a busy machine does not make the next ones coarse.
-    pixel_seconds_ = pixel_seconds_ ? 0.5 * (*pixel_seconds_ + measured) : measured;
+    auto& known = pixel_seconds_[static_cast<std::size_t>(pass.divisor)];
+    // Half of the change: one slow picture on a busy machine does not make the next ones coarse. A view that
+    // became slower is so at all sizes.
+    const double change = known && *known > 0.0 ? 0.5 * (1.0 + measured / *known) : 1.0;
+    if (!known || *known <= 0.0) known = measured;
+    for (auto& any : pixel_seconds_) {
+      if (any) *any *= change;
+    }
   }
   if (pass.moving == (still_pictures_ < 0)) ++still_pictures_;
 }
@@ -60,6 +79,38 @@ Picture PictureMean::mean() const {
   Picture picture{size_.width, size_.height, std::vector<std::uint8_t>(sums_.size())};
   for (std::size_t i = 0; i < sums_.size(); ++i) picture.pixels[i] = mean_of[sums_[i]];
   return picture;
+}
+
+// The greatest and the least of three pixels upright, then of three such columns.
+std::vector<std::uint8_t> uneven_pixels(const Picture& picture, int levels) {
+  const std::int64_t row = 4 * picture.width;
+  std::vector<std::uint8_t> least(static_cast<std::size_t>(row));
+  std::vector<std::uint8_t> greatest(least.size());
+  std::vector<std::uint8_t> uneven;
+  uneven.reserve(picture.pixels.size() / 4);
+  for (std::int64_t y = 0; y < picture.height; ++y) {
+    const std::uint8_t* const here = picture.pixels.data() + row * y;
+    const std::uint8_t* const above = y > 0 ? here - row : here;
+    const std::uint8_t* const below = y + 1 < picture.height ? here + row : here;
+    for (std::int64_t i = 0; i < row; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      least[at] = std::min({above[i], here[i], below[i]});
+      greatest[at] = std::max({above[i], here[i], below[i]});
+    }
+    for (std::int64_t x = 0; x < picture.width; ++x) {
+      const auto left = static_cast<std::size_t>(4 * std::max<std::int64_t>(x - 1, 0));
+      const auto middle = static_cast<std::size_t>(4 * x);
+      const auto right = static_cast<std::size_t>(4 * std::min(x + 1, picture.width - 1));
+      int contrast = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int low = std::min({least[left + c], least[middle + c], least[right + c]});
+        const int high = std::max({greatest[left + c], greatest[middle + c], greatest[right + c]});
+        contrast = std::max(contrast, high - low);
+      }
+      uneven.push_back(contrast > levels ? 1 : 0);
+    }
+  }
+  return uneven;
 }
 
 }  // namespace tidemark::renderer

@@ -1,6 +1,7 @@
 // The choice of quality: coarse pictures while something moves, better ones afterwards. Knows no OpenGL.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "renderer/picture.h"
@@ -14,15 +15,15 @@ struct Pass {
   PictureSize size;
   Quality quality;
   bool moving = false;
+  int divisor = 1;  // of the view's pixels a side
 };
 
 class QualityControl {
  public:
   static constexpr double kInteractive = 0.033;  // seconds a picture may take while something moves
-  static constexpr std::int64_t kSmallest = 4;  // a moving picture has at least a fourth of the pixels a side
-  static constexpr int kRounds = 8;  // pictures of a still view, at most, whose mean is the finished one
-
-  explicit QualityControl(double budget_seconds = kInteractive) : budget_seconds_(budget_seconds) {}
+  static constexpr double kForHalf = 1.5;        // half the pixels a side are worth so many times that
+  static constexpr int kSmallest = 4;  // a moving picture has at least a fourth of the pixels a side
+  static constexpr int kRounds = 8;    // pictures of a still view, at most, whose mean is the finished one
 
   // The view (camera, level set, anything) has changed: the next picture keeps to the budget.
   void moved();
@@ -34,9 +35,11 @@ class QualityControl {
   void drawn(const Pass& pass, double seconds);
 
  private:
-  double budget_seconds_;
-  int still_pictures_ = -1;              // since the view moved; -1: it has just moved
-  std::optional<double> pixel_seconds_;  // of moving pictures, as far as is known
+  // Seconds that a moving picture of that divisor is expected to take for each of its pixels; none at first.
+  [[nodiscard]] std::optional<double> expected_pixel_seconds(int divisor) const;
+
+  int still_pictures_ = -1;  // since the view moved; -1: it has just moved
+  std::array<std::optional<double>, kSmallest + 1> pixel_seconds_;  // of moving pictures, by divisor
 };
 
 // The mean of a still view's pictures.
@@ -46,6 +49,7 @@ class PictureMean {
   void add(const Picture& picture);
   void clear() { count_ = 0; }
   [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] PictureSize size() const { return size_; }
   [[nodiscard]] Picture mean() const;
 
  private:
@@ -53,5 +57,9 @@ class PictureMean {
   int count_ = 0;
   std::vector<std::uint32_t> sums_;
 };
+
+// For each pixel whether it and those around it differ by more than `levels` in red, green or blue: on edges,
+// and where there is noise. Elsewhere further rounds would change nothing that an eye sees.
+std::vector<std::uint8_t> uneven_pixels(const Picture& picture, int levels = 12);
 
 }  // namespace tidemark::renderer

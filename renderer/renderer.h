@@ -12,6 +12,7 @@
 #include "core/paged_bytes.h"
 #include "core/progress.h"
 #include "renderer/picture.h"
+#include "renderer/quality_control.h"
 #include "renderer/views.h"
 #include "solver/executor.h"
 
@@ -81,6 +82,14 @@ class Renderer {
 
   // How many pictures of a still view make up the finished one.
   [[nodiscard]] virtual int still_rounds() const = 0;
+  // Draws one of them and adds it to their mean. Fails as draw() does.
+  virtual Status add_round(const VolumeView& view, PictureSize size, PictureMean& mean,
+                           const Progress& progress) {
+    const auto picture = draw(view, size, progress);
+    if (!picture) return pass_on(picture);
+    mean.add(*picture);
+    return {};
+  }
 
   // The first thing at a pixel (from the picture's top left); none when nothing is seen.
   virtual Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) = 0;

@@ -40,9 +40,7 @@ Result<Picture> draw_still(Renderer& renderer, const VolumeView& view, PictureSi
   VolumeView one = view;
   for (int round = 0; round < rounds; ++round) {
     one.quality.round = round;
-    const auto picture = renderer.draw(one, size, progress.part(round, rounds));
-    if (!picture) return picture;
-    mean.add(*picture);
+    TIDEMARK_TRY(renderer.add_round(one, size, mean, progress.part(round, rounds)));
   }
   return mean.mean();
 }

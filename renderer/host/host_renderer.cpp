@@ -94,7 +94,19 @@ VolumeView HostRenderer::resolved(const VolumeView& asked) {
 }
 
 Result<Picture> HostRenderer::draw(const VolumeView& view, PictureSize size, const Progress& progress) {
-  return paint_volume(scene_, resolved(view), size, threads_, progress);
+  Picture picture{size.width, size.height,
+                  std::vector<std::uint8_t>(static_cast<std::size_t>(4 * size.width * size.height))};
+  TIDEMARK_TRY(paint_volume(scene_, resolved(view), picture, {}, threads_, progress));
+  return picture;
+}
+
+Status HostRenderer::add_round(const VolumeView& view, PictureSize size, PictureMean& mean,
+                               const Progress& progress) {
+  if (mean.count() == 0 || mean.size() != size) return Renderer::add_round(view, size, mean, progress);
+  Picture picture = mean.mean();
+  TIDEMARK_TRY(paint_volume(scene_, resolved(view), picture, uneven_pixels(picture), threads_, progress));
+  mean.add(picture);
+  return {};
 }
 
 Result<Picture> HostRenderer::draw(const SliceView& view, PictureSize size, const Progress& progress) {

@@ -35,6 +35,9 @@ class HostRenderer final : public Renderer {
   // Means of four differ from one another no more than means of eight do
   // (docs/decisions/024-host-renderer.md).
   [[nodiscard]] int still_rounds() const override { return 4; }
+  // After the first round only uneven_pixels() of the mean get another ray.
+  Status add_round(const VolumeView& view, PictureSize size, PictureMean& mean,
+                   const Progress& progress) override;
   Result<std::optional<Hit>> pick(const VolumeView& view, PictureSize size, glm::dvec2 pixel) override;
 
  private:

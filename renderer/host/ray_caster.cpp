@@ -68,6 +68,7 @@ void RayCaster::set_up_light() {
   pieces_.diffuse = static_cast<float>(light.diffuse);
   pieces_.specular = static_cast<float>(light.specular);
   pieces_.shininess = static_cast<float>(light.shininess);
+  pieces_.least_mirrored = std::pow(1e-6F, 1.0F / std::max(pieces_.shininess, 1e-3F));
   pieces_.light = light.from ? glm::vec3(glm::transpose(scene_.geometry().direction) * *light.from) : viewer_;
   pieces_.half_way = glm::normalize(pieces_.light + viewer_);
 }
@@ -217,19 +218,25 @@ RayCaster::Piece RayCaster::march_to_surface(Ray& ray, float stop) const {
 
 RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
   const PhiPages& phi = scene_.phi;
+  Pieces pieces;
+  pieces.start = ray.start;
+  pieces.shows_from = ray.for_source.x;
+  pieces.shows_to = ray.for_source.y;
+  pieces.phi[0] = 0.0F;
+  leap(ray, ray.t, pieces);
   float first = ray.jitter * step_;  // step of the ray; then 0
+  Piece piece;
   Page page = enter(ray, ray.t);
-  while (ray.t < stop && !ray.is_opaque()) {
+  while (ray.t < stop && !piece.found && !ray.is_opaque()) {
     follow(ray, ray.t, page);
     const std::uint8_t kind = kinds_[page.number];
     if (kind == 0) {
-      ray.t = std::min(skip(ray, page), std::max(stop, ray.t));
+      leap(ray, std::min(skip(ray, page), std::max(stop, ray.t)), pieces);
       continue;
     }
     if ((kind & PageKinds::kPhi) != 0) {
-      const Piece piece =
-          march_with_phi(ray, std::min(page.end, stop), (kind & PageKinds::kSource) != 0, first);
-      if (piece.found) return piece;
+      const bool shows = (kind & PageKinds::kSource) != 0;
+      piece = march_with_phi(ray, std::min(page.end, stop), shows, first, pieces);
       continue;
     }
     // All pages in which phi is the same.
@@ -240,67 +247,72 @@ RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
       if (kinds_[page.number] != kind || (needs_phi_ && phi.is_inside(page.number) != inside)) break;
       end = page.end;
     }
-    march_evenly(ray, std::min(end, stop), inside ? phi.band() : -phi.band(), PageKinds::stride(kind) * step_,
-                 first);
+    if (needs_phi_) set_phi(ray, inside ? phi.band() : -phi.band(), pieces);
+    march_evenly(ray, std::min(end, stop), PageKinds::stride(kind) * step_, first, pieces);
   }
-  return {};
+  if (pieces.ends_with_gap()) --pieces.count;
+  shade(ray, pieces);
+  return piece;
 }
 
-void RayCaster::march_evenly(Ray& ray, float end, float phi, float step, float& first) const {
-  Pieces pieces;
-  pieces.start = ray.start;
-  pieces.shows_from = ray.for_source.x;
-  pieces.shows_to = ray.for_source.y;
-  pieces.value = scene_.source.between(on(ray, ray.t));
-  pieces.phi.fill(phi);
+void RayCaster::march_evenly(Ray& ray, float end, float step, float& first, Pieces& pieces) const {
+  const float phi = pieces.phi[static_cast<std::size_t>(pieces.count)];
   while (ray.t < end && !ray.is_opaque()) {
-    pieces.count = 0;
-    pieces.at[0] = ray.t;
-    const int most = ray.picks ? 1 : Pieces::kMost;
-    while (ray.t < end && pieces.count < most) {
-      ray.t = std::min(ray.t + (first > 0.0F ? std::exchange(first, 0.0F) : step), end);
-      pieces.at[static_cast<std::size_t>(++pieces.count)] = ray.t;
-    }
-    shade(ray, pieces);
+    const float next = ray.t + (first > 0.0F ? std::exchange(first, 0.0F) : step);
+    add_piece(ray, std::min(next, end), phi, pieces);
   }
 }
 
 // In one page, whose source may show.
-RayCaster::Piece RayCaster::march_with_phi(Ray& ray, float end, bool source, float& first) const {
-  Pieces pieces;
-  pieces.start = ray.start;
-  pieces.shows_from = ray.for_source.x;
-  pieces.shows_to = ray.for_source.y;
-  if (source) pieces.value = scene_.source.between(on(ray, ray.t));
+RayCaster::Piece RayCaster::march_with_phi(Ray& ray, float end, bool source, float& first,
+                                           Pieces& pieces) const {
   float phi = scene_.phi.between(on(ray, ray.t));
+  set_phi(ray, phi, pieces);
   Piece piece;
   while (ray.t < end && !piece.found && !ray.is_opaque()) {
-    pieces.count = 0;
-    pieces.at[0] = ray.t;
-    pieces.phi[0] = phi;
-    const int most = ray.picks ? 1 : Pieces::kMost;
-    while (ray.t < end && pieces.count < most && !piece.found) {
-      float next = std::min(ray.t + (first > 0.0F ? std::exchange(first, 0.0F) : step_), end);
-      float next_phi = scene_.phi.between(on(ray, next));
-      if (view_.surface && (next_phi > 0.0F) != ray.inside) {
-        piece = {true, ray.t, next, phi, next_phi};
-        // Up to the surface; what is behind it comes after it.
-        next = glm::mix(ray.t, next, std::clamp(phi / (phi - next_phi), 0.0F, 1.0F));
-        next_phi = phi;
-      }
-      phi = next_phi;
-      ray.t = next;
-      ++pieces.count;
-      pieces.at[static_cast<std::size_t>(pieces.count)] = next;
-      pieces.phi[static_cast<std::size_t>(pieces.count)] = phi;
+    float next = std::min(ray.t + (first > 0.0F ? std::exchange(first, 0.0F) : step_), end);
+    float next_phi = scene_.phi.between(on(ray, next));
+    if (view_.surface && (next_phi > 0.0F) != ray.inside) {
+      piece = {true, ray.t, next, phi, next_phi};
+      // Up to the surface; what is behind it comes after it.
+      next = glm::mix(ray.t, next, std::clamp(phi / (phi - next_phi), 0.0F, 1.0F));
+      next_phi = phi;
     }
-    if (source) shade(ray, pieces);
+    phi = next_phi;
+    if (source) {
+      add_piece(ray, next, phi, pieces);
+    } else {
+      leap(ray, next, pieces);
+    }
   }
   return piece;
 }
 
+void RayCaster::add_piece(Ray& ray, float end, float phi, Pieces& pieces) const {
+  const auto piece = static_cast<std::size_t>(pieces.count++);
+  pieces.from[piece] = std::exchange(ray.t, end);
+  pieces.to[piece] = end;
+  pieces.phi[piece + 1] = phi;
+  if (pieces.count == (ray.picks ? 1 : Pieces::kMost)) shade(ray, pieces);
+}
+
+void RayCaster::leap(Ray& ray, float end, Pieces& pieces) const {
+  constexpr float kFar = 64.0F;  // pieces that are shaded together read voxels near one another
+  if (pieces.ends_with_gap()) --pieces.count;
+  if (pieces.count > 0 && end - pieces.to[0] > kFar) shade(ray, pieces);
+  ray.t = end;
+  add_piece(ray, end, pieces.phi[static_cast<std::size_t>(pieces.count)], pieces);
+}
+
+void RayCaster::set_phi(Ray& ray, float phi, Pieces& pieces) const {
+  if (pieces.phi[static_cast<std::size_t>(pieces.count)] == phi) return;
+  leap(ray, ray.t, pieces);
+  pieces.phi[static_cast<std::size_t>(pieces.count)] = phi;
+}
+
 void RayCaster::shade(Ray& ray, Pieces& pieces) const {
-  const float begin = pieces.at[0];
+  if (pieces.count == 0) return;
+  const float begin = pieces.from[0];
   const float before = ray.result.a;
   shade_pieces_(pieces_, pieces, ray.result);
   if (ray.picks && ray.result.a > before) pick_at(ray, Hit::Kind::source, on(ray, begin));

@@ -92,8 +92,14 @@ class RayCaster {
   [[nodiscard]] Piece march(Ray& ray, float stop) const;
   [[nodiscard]] Piece march_to_surface(Ray& ray, float stop) const;
   [[nodiscard]] Piece march_through_source(Ray& ray, float stop) const;
-  void march_evenly(Ray& ray, float end, float phi, float step, float& first) const;
-  [[nodiscard]] Piece march_with_phi(Ray& ray, float end, bool source, float& first) const;
+  void march_evenly(Ray& ray, float end, float step, float& first, Pieces& pieces) const;
+  [[nodiscard]] Piece march_with_phi(Ray& ray, float end, bool source, float& first, Pieces& pieces) const;
+  // The ray goes on to `end`, with phi there; the source shows on the way.
+  void add_piece(Ray& ray, float end, float phi, Pieces& pieces) const;
+  // Nothing shows on the way.
+  void leap(Ray& ray, float end, Pieces& pieces) const;
+  // phi where the next piece begins.
+  void set_phi(Ray& ray, float phi, Pieces& pieces) const;
   void shade(Ray& ray, Pieces& pieces) const;
   [[nodiscard]] float crossing(const Ray& ray, Piece piece) const;
 

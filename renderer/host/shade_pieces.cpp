@@ -56,26 +56,35 @@ HWY_INLINE V integral(const PieceScene::Factor& shape, V u) {
   return hn::Mul(set(0.88622693F), error_function(u));  // sqrt(pi) / 2
 }
 
+// The lanes moved up by one; `first` comes below them. In registers, as a vector that is loaded from where
+// its lanes were just stored waits for them.
+HWY_INLINE V move_up(float first, V lanes) {
+  alignas(64) static constexpr std::int32_t kFrom[16] = {0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
+  static_assert(kLanes <= 16);
+  const V up = hn::TableLookupLanes(lanes, hn::SetTableIndices(Tag(), kFrom));
+  return hn::IfThenElse(hn::FirstN(Tag(), 1), set(first), up);
+}
+HWY_INLINE float last_of(V lanes) {
+  return hn::ExtractLane(lanes, kLanes - 1);
+}
+
 struct Material {
   V red, green, blue;  // times opacity
   V opacity;           // of a mm
 };
 
-// The integrals at the ends of pieces: where one ends, the next one begins.
-struct Integrals {
-  float at[TransferFunction::kMostPrimitives][Pieces::kMost + 1];
-};
-
 // The mean of a factor while the value goes evenly from a to b: no step is too long for a thin Gaussian.
-HWY_INLINE V mean_factor(const PieceScene::Factor& shape, V a, V b, float* integrals) {
+// `before`: the integral where the first lane's piece begins; then, where the last one's ends.
+HWY_INLINE V mean_factor(const PieceScene::Factor& shape, V a, V b, float& before) {
   if (shape.kind == TransferFactor::Kind::everything) return set(1.0F);
   const bool gaussian = shape.kind == TransferFactor::Kind::gaussian;
   const V scale = set(1.0F / (gaussian ? shape.end : shape.end - shape.start));
   const V v = hn::Mul(hn::Sub(b, set(shape.start)), scale);
   const V way = hn::Mul(hn::Sub(b, a), scale);
-  hn::StoreU(integral(shape, v), Tag(), integrals + 1);
+  const V after = integral(shape, v);
   const auto short_way = hn::Lt(hn::Abs(way), set(0.1F));
-  V mean = hn::Div(hn::Sub(hn::LoadU(Tag(), integrals + 1), hn::LoadU(Tag(), integrals)), way);
+  V mean = hn::Div(hn::Sub(after, move_up(before, after)), way);
+  before = last_of(after);
   if (!hn::AllFalse(Tag(), short_way)) {
     mean = hn::IfThenElse(short_way, factor(shape, hn::Mul(set(0.5F), hn::Add(a, b))), mean);
   }
@@ -84,27 +93,18 @@ HWY_INLINE V mean_factor(const PieceScene::Factor& shape, V a, V b, float* integ
 
 // Of each primitive while the value goes from a to b; all but the gradient's factor.
 using Shares = V[TransferFunction::kMostPrimitives];
-HWY_INLINE V shares_of(const PieceScene& scene, V a, V b, V phi, int first, Integrals& integrals,
+HWY_INLINE V shares_of(const PieceScene& scene, V a, V b, V phi, Pieces::Integrals& integrals,
                        Shares& shares) {
   V sum = hn::Zero(Tag());
   for (int i = 0; i < scene.count; ++i) {
     const PieceScene::Primitive& one = scene.primitives[static_cast<std::size_t>(i)];
-    shares[i] = hn::Mul(set(one.opacity), mean_factor(one.value, a, b, integrals.at[i] + first));
+    shares[i] =
+        hn::Mul(set(one.opacity), mean_factor(one.value, a, b, integrals[static_cast<std::size_t>(i)]));
     if (one.phi.kind != TransferFactor::Kind::everything)
       shares[i] = hn::Mul(shares[i], factor(one.phi, phi));
     sum = hn::Add(sum, shares[i]);
   }
   return sum;
-}
-
-// At the value with which the first piece begins.
-HWY_INLINE void begin_integrals(const PieceScene& scene, float value, Integrals& integrals) {
-  for (int i = 0; i < scene.count; ++i) {
-    const PieceScene::Factor& shape = scene.primitives[static_cast<std::size_t>(i)].value;
-    if (shape.kind == TransferFactor::Kind::everything) continue;
-    const float width = shape.kind == TransferFactor::Kind::gaussian ? shape.end : shape.end - shape.start;
-    integrals.at[i][0] = hn::GetLane(integral(shape, set((value - shape.start) / width)));
-  }
 }
 
 HWY_INLINE Material classify(const PieceScene& scene, const Shares& shares, V gradient) {
@@ -139,6 +139,23 @@ HWY_INLINE V dot(const Place& a, const glm::vec3& b) {
   return hn::MulAdd(a.z, set(b.z), hn::MulAdd(a.y, set(b.y), hn::Mul(a.x, set(b.x))));
 }
 
+// For x from 0 to 1; 0 where x is below the least that matters.
+HWY_INLINE V to_shininess(const PieceScene& scene, V x) {
+  const auto matters = hn::Ge(x, set(scene.least_mirrored));
+  if (hn::AllFalse(Tag(), matters)) return hn::Zero(Tag());
+  x = hn::IfThenElseZero(matters, x);
+  int exponent = static_cast<int>(scene.shininess);
+  if (static_cast<float>(exponent) != scene.shininess) {
+    return hn::Exp(Tag(), hn::Mul(set(scene.shininess), hn::Log(Tag(), hn::Max(x, set(1e-20F)))));
+  }
+  V power = set(1.0F);
+  for (; exponent > 0; exponent >>= 1) {
+    if ((exponent & 1) != 0) power = hn::Mul(power, x);
+    x = hn::Mul(x, x);
+  }
+  return power;
+}
+
 // Blinn-Phong, two-sided: what a colour is multiplied by, and what is added to it.
 HWY_INLINE void light(const PieceScene& scene, const Place& gradient, V steepness, V& factor, V& gloss) {
   const auto flat = hn::Lt(steepness, set(1e-30F));
@@ -148,39 +165,31 @@ HWY_INLINE void light(const PieceScene& scene, const Place& gradient, V steepnes
   gloss = hn::Zero(Tag());
   if (scene.specular <= 0.0F) return;
   const V mirrored = hn::Mul(hn::Abs(dot(gradient, scene.half_way)), inverse);
-  const V power =
-      hn::Exp(Tag(), hn::Mul(set(scene.shininess), hn::Log(Tag(), hn::Max(mirrored, set(1e-20F)))));
-  gloss = hn::IfThenElse(flat, gloss, hn::Mul(set(scene.specular), power));
+  gloss = hn::IfThenElse(flat, gloss, hn::Mul(set(scene.specular), to_shininess(scene, mirrored)));
 }
 
 struct Shaded {
-  float red[Pieces::kMost], green[Pieces::kMost], blue[Pieces::kMost], opacity[Pieces::kMost];
+  alignas(64) float red[kLanes], green[kLanes], blue[kLanes], transparency[kLanes];
 };
 
-// Lanes from `first` on. Returns false when nothing shows in them.
+// Lanes from `first` on, with the values where their pieces begin and end, and the slope there. Returns false
+// when nothing shows in them.
 template <class T>
-HWY_INLINE bool shade_lanes(const PieceScene& scene, const Pieces& pieces, const Sampler<T>& sampler,
-                            int first, const float* values, const Place& cell_slope, Integrals& integrals,
-                            Shaded& shaded) {
+HWY_INLINE bool shade_lanes(const PieceScene& scene, Pieces& pieces, const Sampler<T>& sampler, int first,
+                            V end, V a, V b, const Place& cell_slope, Shaded& shaded) {
   const Tag d;
-  const float* at = pieces.at.data() + first;
-  const V begin = hn::LoadU(d, at);
-  const V end = hn::LoadU(d, at + 1);
-  const V a = hn::LoadU(d, values + first);
-  const V b = hn::LoadU(d, values + first + 1);
-  const V phi_a = hn::LoadU(d, pieces.phi.data() + first);
+  const V begin = hn::LoadU(d, pieces.from.data() + first);
   const V phi_b = hn::LoadU(d, pieces.phi.data() + first + 1);
+  const V phi_a = move_up(pieces.phi[static_cast<std::size_t>(first)], phi_b);
   V length = hn::Sub(hn::Min(end, set(pieces.shows_to)), hn::Max(begin, set(pieces.shows_from)));
   length = hn::Mul(hn::Max(length, hn::Zero(d)), set(scene.mm));
   if (scene.region == Region::inside || scene.region == Region::outside) {
     length = hn::Mul(length, share_in_region(scene.region, phi_a, phi_b));
   }
-  const auto wanted = hn::FirstN(d, static_cast<std::size_t>(pieces.count - first));
-  length = hn::IfThenElseZero(wanted, length);
   const V phi = hn::Mul(set(0.5F), hn::Add(phi_a, phi_b));
   Shares shares;
   const auto shows = [&](V opacity) HWY_ATTR { return hn::Gt(hn::Mul(opacity, length), set(kLeastOpacity)); };
-  if (hn::AllFalse(d, shows(shares_of(scene, a, b, phi, first, integrals, shares)))) return false;
+  if (hn::AllFalse(d, shows(shares_of(scene, a, b, phi, pieces.integrals, shares)))) return false;
 
   Place gradient = cell_slope;
   if (!scene.fast_gradient) {
@@ -200,8 +209,9 @@ HWY_INLINE bool shade_lanes(const PieceScene& scene, const Pieces& pieces, const
   const auto seen = shows(material.opacity);
   if (hn::AllFalse(d, seen)) return false;
   const V inverse = hn::Div(set(1.0F), hn::Max(material.opacity, set(1e-30F)));
-  const V opacity =
-      hn::IfThenElseZero(seen, hn::Sub(set(1.0F), hn::Exp(d, hn::Neg(hn::Mul(material.opacity, length)))));
+  const V transparency =
+      hn::IfThenElse(seen, hn::Exp(d, hn::Neg(hn::Mul(material.opacity, length))), set(1.0F));
+  const V opacity = hn::Sub(set(1.0F), transparency);
   V red = hn::Mul(material.red, inverse);
   V green = hn::Mul(material.green, inverse);
   V blue = hn::Mul(material.blue, inverse);
@@ -214,10 +224,10 @@ HWY_INLINE bool shade_lanes(const PieceScene& scene, const Pieces& pieces, const
   V lit;
   V gloss;
   light(scene, gradient, steepness, lit, gloss);
-  hn::StoreU(hn::Mul(opacity, hn::MulAdd(red, lit, gloss)), d, shaded.red + first);
-  hn::StoreU(hn::Mul(opacity, hn::MulAdd(green, lit, gloss)), d, shaded.green + first);
-  hn::StoreU(hn::Mul(opacity, hn::MulAdd(blue, lit, gloss)), d, shaded.blue + first);
-  hn::StoreU(opacity, d, shaded.opacity + first);
+  hn::Store(hn::Mul(opacity, hn::MulAdd(red, lit, gloss)), d, shaded.red);
+  hn::Store(hn::Mul(opacity, hn::MulAdd(green, lit, gloss)), d, shaded.green);
+  hn::Store(hn::Mul(opacity, hn::MulAdd(blue, lit, gloss)), d, shaded.blue);
+  hn::Store(transparency, d, shaded.transparency);
   return true;
 }
 
@@ -225,40 +235,38 @@ template <class T>
 HWY_INLINE void shade(const PieceScene& scene, Pieces& pieces, glm::vec4& result) {
   const Tag d;
   static_assert(Pieces::kMost % kLanes == 0);
-  const auto z_at = [&](float at) { return pieces.start.z + at * scene.direction.z; };
-  const Sampler<T> sampler(*scene.source, z_at(pieces.at[0]),
-                           z_at(pieces.at[static_cast<std::size_t>(pieces.count)]));
-  // What is behind the last piece is no piece, but lanes of it are computed.
-  for (int i = pieces.count + 1; i <= Pieces::kMost; ++i) {
-    pieces.at[static_cast<std::size_t>(i)] = pieces.at[static_cast<std::size_t>(pieces.count)];
-    pieces.phi[static_cast<std::size_t>(i)] = pieces.phi[static_cast<std::size_t>(pieces.count)];
-  }
-  float values[Pieces::kMost + 1];
-  values[0] = pieces.value;
-  Integrals integrals;
-  begin_integrals(scene, pieces.value, integrals);
+  const auto z_at = [&](std::size_t piece) { return pieces.start.z + pieces.to[piece] * scene.direction.z; };
+  const auto count = static_cast<std::size_t>(pieces.count);
+  const Sampler<T> sampler(*scene.source, z_at(0), z_at(count - 1));
+  // What is behind the last piece is a gap, but lanes of it are computed.
+  std::fill(pieces.from.begin() + pieces.count, pieces.from.end(), pieces.to[count - 1]);
+  std::fill(pieces.to.begin() + pieces.count, pieces.to.end(), pieces.to[count - 1]);
+  std::fill(pieces.phi.begin() + pieces.count + 1, pieces.phi.end(), pieces.phi[count]);
   Shaded shaded;
+  float left = 1.0F - result.a;
   for (int first = 0; first < pieces.count; first += kLanes) {
-    const V end = hn::LoadU(d, pieces.at.data() + first + 1);
+    const V end = hn::LoadU(d, pieces.to.data() + first);
     const Place place{hn::MulAdd(end, set(scene.direction.x), set(pieces.start.x)),
                       hn::MulAdd(end, set(scene.direction.y), set(pieces.start.y)),
                       hn::MulAdd(end, set(scene.direction.z), set(pieces.start.z))};
     Place slope{};
     const auto cell = sampler.cell(place);
     const V stored = scene.fast_gradient ? sampler.value(cell, slope) : sampler.value(cell);
-    hn::StoreU(hn::MulAdd(stored, set(scene.source->slope()), set(scene.source->intercept())), d,
-               values + first + 1);
-    if (!shade_lanes(scene, pieces, sampler, first, values, slope, integrals, shaded)) continue;
-    for (int i = first; i < std::min(pieces.count, first + kLanes); ++i) {
-      const float left = 1.0F - result.a;
+    const V b = hn::MulAdd(stored, set(scene.source->slope()), set(scene.source->intercept()));
+    const V a = move_up(pieces.value, b);
+    pieces.value = last_of(b);
+    if (!shade_lanes(scene, pieces, sampler, first, end, a, b, slope, shaded)) continue;
+    for (int i = 0; i < std::min(pieces.count - first, kLanes) && 1.0F - left < kOpaque; ++i) {
       result.r += left * shaded.red[i];
       result.g += left * shaded.green[i];
       result.b += left * shaded.blue[i];
-      result.a += left * shaded.opacity[i];
-      if (result.a >= kOpaque) return;
+      left *= shaded.transparency[i];
     }
+    result.a = 1.0F - left;
+    if (result.a >= kOpaque) break;
   }
-  pieces.value = values[pieces.count];
+  pieces.phi[0] = pieces.phi[count];
+  pieces.count = 0;
 }
 
 }  // namespace

@@ -36,22 +36,36 @@ struct PieceScene {
   glm::vec3 light{0.0F};  // unit vectors in mm along the voxel axes: to the light, and half-way to the viewer
   glm::vec3 half_way{0.0F};
   float ambient = 0.0F, diffuse = 0.0F, specular = 0.0F, shininess = 1.0F;
+  float least_mirrored =
+      0.0F;  // cosine of the half-way direction and the slope below which nothing is specular
 };
 
-// Neighbouring pieces of a ray.
+// Neighbouring pieces of a ray. Some of them are gaps, in which nothing shows.
 struct Pieces {
   static constexpr int kMost = 16;
 
   glm::vec3 start{0.0F};  // of the ray, voxel coordinates
   int count = 0;
-  std::array<float, kMost + 1> at;   // where they begin, and where the last one ends
-  std::array<float, kMost + 1> phi;  // there
-  float value = 0.0F;       // of the source where the first one begins; then, where the last one ends
-  float shows_from = 0.0F;  // the source shows between these places alone
+  std::array<float, kMost> from;     // where each of them begins, but of a gap: where it ends
+  std::array<float, kMost> to;       // where it ends
+  std::array<float, kMost + 1> phi;  // where the first one begins, and where each of them ends
+  float shows_from = 0.0F;           // the source shows between these places alone
   float shows_to = 0.0F;
+
+  // The source where the pieces before these ended, and the integrals of the primitives' factors of it. There
+  // are none before the first ones, which therefore begin with a gap.
+  float value = 0.0F;
+  using Integrals = std::array<float, TransferFunction::kMostPrimitives>;
+  Integrals integrals{};
+
+  [[nodiscard]] bool ends_with_gap() const {
+    const auto last = static_cast<std::size_t>(count) - 1;
+    return count > 0 && from[last] == to[last];
+  }
 };
 
-// Adds the pieces front to back to `result` (premultiplied), until it is opaque.
+// Adds the pieces front to back to `result` (premultiplied), until it is opaque. `pieces` then has none, and
+// goes on behind them.
 using ShadePieces = void (*)(const PieceScene& scene, Pieces& pieces, glm::vec4& result);
 // For the widest instruction set of this processor.
 ShadePieces shade_pieces();

@@ -25,25 +25,24 @@ std::uint8_t as_byte(float share) {
 
 }  // namespace
 
-Result<Picture> paint_volume(HostScene& scene, const VolumeView& view, PictureSize size, ThreadPool& threads,
-                             const Progress& progress) {
+Status paint_volume(HostScene& scene, const VolumeView& view, Picture& picture,
+                    std::span<const std::uint8_t> wanted, ThreadPool& threads, const Progress& progress) {
   prepare(scene, view, threads);
+  const PictureSize size{picture.width, picture.height};
   const RayCaster caster(scene, view, size);
-  Picture picture{size.width, size.height,
-                  std::vector<std::uint8_t>(static_cast<std::size_t>(4 * size.width * size.height))};
   const std::int64_t columns = (size.width + kTile - 1) / kTile;
   const std::int64_t rows = (size.height + kTile - 1) / kTile;
   const auto paint_tile = [&](std::int64_t tile) {
     const std::int64_t left = tile % columns * kTile;
     const std::int64_t top = tile / columns * kTile;
     for (std::int64_t y = top; y < std::min(top + kTile, size.height); ++y) {
-      std::uint8_t* pixel = picture.pixels.data() + 4 * (left + size.width * y);
       for (std::int64_t x = left; x < std::min(left + kTile, size.width); ++x) {
+        const auto number = static_cast<std::size_t>(x + size.width * y);
+        if (!wanted.empty() && wanted[number] == 0) continue;
         const glm::vec3 colour = caster.colour(x, y);
-        *pixel++ = as_byte(colour.r);
-        *pixel++ = as_byte(colour.g);
-        *pixel++ = as_byte(colour.b);
-        *pixel++ = 255;
+        std::uint8_t* const pixel = picture.pixels.data() + 4 * number;
+        for (int c = 0; c < 3; ++c) pixel[c] = as_byte(colour[c]);
+        pixel[3] = 255;
       }
     }
   };
@@ -51,7 +50,7 @@ Result<Picture> paint_volume(HostScene& scene, const VolumeView& view, PictureSi
     for (std::int64_t tile = begin; tile < end && !progress.cancelled(); ++tile) paint_tile(tile);
   });
   if (progress.cancelled()) return cancelled_error();
-  return picture;
+  return {};
 }
 
 std::optional<Hit> pick_volume(HostScene& scene, const VolumeView& view, PictureSize size, glm::dvec2 pixel,
