@@ -5,6 +5,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/number_in.h"
+
 namespace tidemark {
 
 // (i, j, k): 0-based along columns, rows and slices; i runs fastest in memory.
@@ -21,7 +23,7 @@ struct Geometry {
 
   [[nodiscard]] std::int64_t voxel_count() const { return size.x * size.y * size.z; }
   // Where a voxel's value lies in memory, and the voxel whose value lies there.
-  [[nodiscard]] std::int64_t offset(Index3 v) const { return v.x + size.x * (v.y + size.y * v.z); }
+  [[nodiscard]] std::int64_t offset(Index3 v) const { return number_in(size, v); }
   [[nodiscard]] Index3 voxel_at(std::int64_t offset) const {
     return {offset % size.x, offset / size.x % size.y, offset / (size.x * size.y)};
   }

@@ -36,8 +36,8 @@ void for_each_box_row(const PageLayout& layout, Index3 first, Index3 shape, cons
   for_each_part(layout, first, shape, [&](std::int64_t page, Index3 corner, Index3 low, Index3 high) {
     for (std::int64_t z = low.z; z < high.z; ++z) {
       for (std::int64_t y = low.y; y < high.y; ++y) {
-        visit(page, low.x - corner.x + page_shape.x * (y - corner.y + page_shape.y * (z - corner.z)),
-              low.x - first.x + shape.x * (y - first.y + shape.y * (z - first.z)), high.x - low.x);
+        const Index3 row(low.x, y, z);
+        visit(page, number_in(page_shape, row - corner), number_in(shape, row - first), high.x - low.x);
       }
     }
   });

@@ -76,9 +76,7 @@ class PagedBytes {
   [[nodiscard]] Place place_of(glm::u64vec3 voxel) const {
     const glm::u64vec3 page = voxel / kShape;
     const glm::u64vec3 at = voxel % kShape;
-    const glm::u64vec3 pages(layout_.pages());
-    return {static_cast<std::int64_t>(page.x + pages.x * (page.y + pages.y * page.z)),
-            at.x + kShape.x * (at.y + kShape.y * at.z)};
+    return {static_cast<std::int64_t>(number_in(glm::u64vec3(layout_.pages()), page)), number_in(kShape, at)};
   }
   using Pages = BasicSharedPages<std::uint8_t>;
   static const Pages& even_pages();  // page n holds n alone
@@ -128,7 +126,7 @@ void PagedBytes::for_each_difference(const PagedBytes& a, const PagedBytes& b, c
           const std::uint8_t* const in_b = b.pages_.values(differing[n]);
           const Index3 first = a.layout_.first_voxel(differing[n]) + Index3(0, y, z);
           const std::int64_t length = a.layout_.valid_shape(differing[n]).x;
-          const std::int64_t row = kPageShape.x * (y + kPageShape.y * z);
+          const std::int64_t row = number_in(kPageShape, Index3(0, y, z));
           for (std::int64_t i = 0; i < length;) {
             const std::uint8_t before = a.value_in(in_a, row + i);
             const std::uint8_t after = b.value_in(in_b, row + i);

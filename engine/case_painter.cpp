@@ -2,6 +2,7 @@
 
 #include <QPointer>
 #include <chrono>
+#include <type_traits>
 
 #include "renderer/gl/gl_renderer.h"
 #include "solver/speed/motion_limit.h"

@@ -70,7 +70,7 @@ bool interpolate(const Geometry& image, const Voxel* voxels, glm::dvec3 place, d
     if (!find(place[axis], image.size[axis], at[static_cast<std::size_t>(axis)])) return false;
   }
   const auto along = [&](std::int64_t j, std::int64_t k) {
-    const Voxel* row = voxels + image.size.x * (j + image.size.y * k);
+    const Voxel* row = voxels + number_in(image.size, Index3(0, j, k));
     const auto low = static_cast<double>(row[at[0].low]);
     return low + at[0].part * (static_cast<double>(row[at[0].high]) - low);
   };

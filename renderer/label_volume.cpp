@@ -38,7 +38,7 @@ struct Tile {
       for (std::int64_t y = 0; y < size.y; ++y) {
         for (std::int64_t x = 0; x < size.x; ++x) {
           const Index3 at = glm::clamp(first + Index3(x, y, z), Index3(0), last) - low;
-          labels.push_back(known[static_cast<std::size_t>(at.x + there.x * (at.y + there.y * at.z))]);
+          labels.push_back(known[static_cast<std::size_t>(number_in(there, at))]);
         }
       }
     }
@@ -46,7 +46,7 @@ struct Tile {
 
   // Of the voxel in the page.
   [[nodiscard]] std::uint8_t share(Index3 at) const {
-    const std::uint8_t* corner = labels.data() + at.x + size.x * (at.y + size.y * at.z);
+    const std::uint8_t* corner = labels.data() + number_in(size, at);
     const std::uint8_t own = corner[kReach * (1 + size.x * (1 + size.y))];
     int sum = 0;
     for (std::size_t z = 0; z < kWidth; ++z) {

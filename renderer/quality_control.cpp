@@ -55,6 +55,11 @@ void QualityControl::drawn(const Pass& pass, double seconds) {
     for (auto& any : pixel_seconds_) {
       if (any) *any *= change;
     }
+    // A pixel of a finer picture takes no longer than one of a coarser: what says so was disturbed.
+    std::optional<double> least;
+    for (auto any = pixel_seconds_.rbegin(); any != pixel_seconds_.rend(); ++any) {
+      if (*any) least = *any = least ? std::min(**any, *least) : **any;
+    }
   }
   if (pass.moving == (still_pictures_ < 0)) ++still_pictures_;
 }
@@ -81,7 +86,7 @@ Picture PictureMean::mean() const {
   return picture;
 }
 
-// The greatest and the least of three pixels upright, then of three such columns.
+// Takes the least and the greatest of each column of three pixels, then of three such columns.
 std::vector<std::uint8_t> uneven_pixels(const Picture& picture, int levels) {
   const std::int64_t row = 4 * picture.width;
   std::vector<std::uint8_t> least(static_cast<std::size_t>(row));

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "renderer/picture.h"
 #include "renderer/views.h"
@@ -21,9 +23,9 @@ struct Pass {
 class QualityControl {
  public:
   static constexpr double kInteractive = 0.033;  // seconds a picture may take while something moves
-  static constexpr double kForHalf = 1.5;        // half the pixels a side are worth so many times that
-  static constexpr int kSmallest = 4;  // a moving picture has at least a fourth of the pixels a side
-  static constexpr int kRounds = 8;    // pictures of a still view, at most, whose mean is the finished one
+  static constexpr double kForHalf = 1.5;  // a picture of half the pixels a side may take so many times it
+  static constexpr int kSmallest = 4;      // a moving picture has at least a fourth of the pixels a side
+  static constexpr int kRounds = 8;  // pictures of a still view, at most, whose mean is the finished one
 
   // The view (camera, level set, anything) has changed: the next picture keeps to the budget.
   void moved();
@@ -58,8 +60,9 @@ class PictureMean {
   std::vector<std::uint32_t> sums_;
 };
 
-// For each pixel whether it and those around it differ by more than `levels` in red, green or blue: on edges,
-// and where there is noise. Elsewhere further rounds would change nothing that an eye sees.
+// For each pixel whether those of the 3 x 3 around it differ by more than `levels` in red, green or blue: on
+// edges, and where there is noise. Elsewhere further rounds change little: thin things that all the first
+// rays missed.
 std::vector<std::uint8_t> uneven_pixels(const Picture& picture, int levels = 12);
 
 }  // namespace tidemark::renderer

@@ -82,7 +82,8 @@ class Renderer {
 
   // How many pictures of a still view make up the finished one.
   [[nodiscard]] virtual int still_rounds() const = 0;
-  // Draws one of them and adds it to their mean. Fails as draw() does.
+  // Draws the round of view.quality and adds it to the mean of the rounds of this view before it. Fails as
+  // draw() does, and leaves the mean as it was.
   virtual Status add_round(const VolumeView& view, PictureSize size, PictureMean& mean,
                            const Progress& progress) {
     const auto picture = draw(view, size, progress);

@@ -141,8 +141,7 @@ void BoxDistances::take(Side to_side, float limit) {
   std::int64_t row = 0;
   for (std::int64_t z = 0; z < size_.z; ++z) {
     for (std::int64_t y = 0; y < size_.y; ++y, ++row) {
-      const std::uint8_t* const voxels =
-          voxels_.data() + before_.x + around_.x * (y + before_.y + around_.y * (z + before_.z));
+      const std::uint8_t* const voxels = voxels_.data() + number_in(around_, before_ + Index3(0, y, z));
       const float* const squared = along_z_.row(row);
       const bool reached = along_z_.reached[static_cast<std::size_t>(row)] != 0;
       float* const to = result_.data() + row * size_.x;

@@ -107,8 +107,7 @@ class PageRefiner {
       };
       const float low = plane(z.low);
       const float phi = scale * (low + z.weight * (plane(z.high) - low));
-      values_[static_cast<std::size_t>(v.x + shape.x * (v.y + shape.y * v.z))] =
-          std::clamp(phi, -limit_, limit_);
+      values_[static_cast<std::size_t>(number_in(shape, v))] = std::clamp(phi, -limit_, limit_);
     });
   }
 

@@ -148,8 +148,8 @@ class PageDistances {
     float* const to = values_of(page);
     for (std::int64_t z = 0; z < valid.z; ++z) {
       for (std::int64_t y = 0; y < valid.y; ++y) {
-        std::copy_n(distances + at.x + size.x * (at.y + y + size.y * (at.z + z)), valid.x,
-                    to + shape.x * (y + shape.y * z));
+        const Index3 row(0, y, z);
+        std::copy_n(distances + number_in(size, at + row), valid.x, to + number_in(shape, row));
       }
     }
   }

@@ -79,7 +79,7 @@ Status FrontPatches::see(const Executor& executor) {
     for (std::int64_t z = 0; z < size.z; ++z) {
       for (std::int64_t y = 0; y < size.y; ++y) {
         see_row(first + Index3(0, y, z), size.x,
-                phi == nullptr ? nullptr : phi + shape.x * (y + shape.y * z));
+                phi == nullptr ? nullptr : phi + number_in(shape, Index3(0, y, z)));
       }
     }
   });
@@ -176,8 +176,7 @@ void FrontPatches::add_edge(Number patch, Number older, double area_mm2) {
 FrontPatches::Place FrontPatches::place_of(Index3 voxel) const {
   const Index3 page = voxel >> std::int64_t{kEdgeBits};
   const Index3 in = voxel & kInEdge;
-  return ((page.x + pages_along_.x * (page.y + pages_along_.y * page.z)) << kPageBits) +
-         (((in.z << kEdgeBits) + in.y) << kEdgeBits) + in.x;
+  return (number_in(pages_along_, page) << kPageBits) + (((in.z << kEdgeBits) + in.y) << kEdgeBits) + in.x;
 }
 
 Index3 FrontPatches::voxel_at(Place place) const {

@@ -67,19 +67,15 @@ class Repager {
     for (std::int64_t z = low.z; z < high.z; ++z) {
       for (std::int64_t y = low.y; y < high.y; ++y) {
         const Index3 at = Index3(low.x, y, z);
-        float* const to = values_.data() + index_in(at - first, new_shape);
+        float* const to = values_.data() + number_in(new_shape, at - first);
         if (values == nullptr) {
           std::fill_n(to, high.x - low.x, constant);
           continue;
         }
-        const float* const row = values + index_in(at - corner, old_shape);
+        const float* const row = values + number_in(old_shape, at - corner);
         std::transform(row, row + (high.x - low.x), to, [this](float phi) { return in_band(phi); });
       }
     }
-  }
-
-  static std::int64_t index_in(Index3 voxel, Index3 shape) {
-    return voxel.x + shape.x * (voxel.y + shape.y * voxel.z);
   }
 
   [[nodiscard]] float in_band(float phi) const {

@@ -244,7 +244,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--mask", options.mask, "Mask whose surface is shown");
   command.add_option("--phi", options.phi,
                      "Saved level set whose surface is shown: above 0 inside, in smallest voxels");
-  command.add_option("--labels", options.labels, "Labels, shown as colours on slices");
+  command.add_option("--labels", options.labels, "Labels, shown in colours of their own");
   command.add_option("--view", options.view, "What is drawn (default: 3d)")->type_name(joined(kViews, "|"));
   command.add_option("--preset", options.preset,
                      "Volume rendering: " + fmt::format("{}", fmt::join(renderer::preset_names(), ", ")));

@@ -131,6 +131,7 @@ Result<Scene> make_scene(const RenderOptions& options, Views views, Console& con
     const auto labels = load_labels(options.labels, scene.source->geometry, console);
     if (!labels) return pass_on(labels);
     TIDEMARK_TRY(scene.renderer->set_labels(PagedBytes(scene.source->geometry.size, *labels)));
+    scene.views.volume.label_opacity = 1.0;
   }
   place(scene, options, *phi);
   return scene;

@@ -19,13 +19,6 @@ std::int64_t BasicPageLayout<kDimensions>::product(Coordinates sizes) {
 }
 
 template <int kDimensions>
-std::int64_t BasicPageLayout<kDimensions>::number_in(Coordinates box, Coordinates at) {
-  std::int64_t number = 0;
-  for (int axis = kDimensions; axis-- > 0;) number = number * box[axis] + at[axis];
-  return number;
-}
-
-template <int kDimensions>
 VirtualAddress BasicPageLayout<kDimensions>::translate(Coordinates voxel) const {
   const Coordinates page = voxel / page_shape_;
   return {page_number(page), number_in(page_shape_, voxel - page * page_shape_)};

@@ -46,8 +46,6 @@ class BasicPageLayout {
 
  private:
   static std::int64_t product(Coordinates sizes);
-  // The number of `at` in a box, the first axis fastest.
-  static std::int64_t number_in(Coordinates box, Coordinates at);
 
   Coordinates domain_size_{0};
   Coordinates page_shape_{1};

@@ -14,7 +14,7 @@ void for_each_row(const Geometry& geometry, const PageLayout& layout, std::int64
   const Index3 shape = layout.page_shape();
   for (std::int64_t z = 0; z < valid.z; ++z) {
     for (std::int64_t y = 0; y < valid.y; ++y) {
-      visit(geometry.offset(first + Index3(0, y, z)), valid.x, shape.x * (y + shape.y * z));
+      visit(geometry.offset(first + Index3(0, y, z)), valid.x, number_in(shape, Index3(0, y, z)));
     }
   }
 }

@@ -34,13 +34,11 @@ class PhiValues {
   static constexpr std::int64_t kSide = PhiPages::kSide;
 
   static Index3 page_of(Index3 v) { return {v.x / kSide, v.y / kSide, v.z / kSide}; }
-  static std::int64_t index_in_page(Index3 v) {
-    return v.x % kSide + kSide * (v.y % kSide + kSide * (v.z % kSide));
-  }
+  static std::int64_t index_in_page(Index3 v) { return number_in(Index3(kSide), v % kSide); }
   // That a voxel lies in.
   [[nodiscard]] const PhiPages::Page& page(Index3 v) const {
     const Index3 at = page_of(v);
-    return pages_[at.x + page_grid_.x * (at.y + page_grid_.y * at.z)];
+    return pages_[number_in(page_grid_, at)];
   }
 
   const Geometry& geometry_;

@@ -52,7 +52,7 @@ template <class Scalar>
 std::span<const std::byte> SourceStack::gather(const std::vector<Scalar>& voxels, std::int64_t slice) {
   const auto texels = static_cast<std::size_t>(axis_.width() * axis_.height());
   const Index3 size = axis_.size;
-  const auto at = [&](Index3 v) { return voxels.data() + v.x + size.x * (v.y + size.y * v.z); };
+  const auto at = [&](Index3 v) { return voxels.data() + number_in(size, v); };
   if (axis_.along == 2) return std::as_bytes(std::span(at({0, 0, slice}), texels));
   const std::int64_t wanted = axis_.along == 0 ? slice / kGatheredAtOnce * kGatheredAtOnce : slice;
   const std::int64_t count = axis_.along == 0 ? std::min(kGatheredAtOnce, size.x - wanted) : 1;

@@ -132,12 +132,11 @@ void MapSamples::fill(ThreadPool& threads) {
 const float* MapSamples::value_at(glm::ivec3 voxel) const {
   // Not negative: shifts are what divisions would be.
   const glm::ivec3 block = voxel >> kShift;
-  const std::int32_t place =
-      places_[static_cast<std::size_t>(block.x + grid_.x * (block.y + grid_.y * block.z))];
+  const std::int32_t place = places_[static_cast<std::size_t>(number_in(grid_, block))];
   if (place < 0) return nullptr;
   const glm::ivec3 local = voxel & (kSide - 1);
   return values_.data() + static_cast<std::size_t>(place) * kBlockVoxels +
-         static_cast<std::size_t>(local.x + kSide * (local.y + kSide * local.z));
+         static_cast<std::size_t>(number_in(glm::ivec3(kSide), local));
 }
 
 float MapSamples::at(glm::ivec3 voxel) const {

@@ -29,7 +29,7 @@ class PageKinds {
   static constexpr int kSide = 4;
   [[nodiscard]] bool cube_is_empty(glm::ivec3 page) const {
     const glm::ivec3 cube = page / kSide;
-    return cubes_[static_cast<std::size_t>(cube.x + cube_grid_.x * (cube.y + cube_grid_.y * cube.z))] == 0;
+    return cubes_[static_cast<std::size_t>(number_in(cube_grid_, cube))] == 0;
   }
   // The pages in which there may be something to see; with Quality::skip_empty off all of them.
   [[nodiscard]] const std::vector<glm::ivec3>& seen() const { return seen_; }

@@ -31,9 +31,7 @@ class PhiPages {
   [[nodiscard]] float band() const { return band_; }
 
   // A page's number in V_P, and back, for coordinates inside of it.
-  [[nodiscard]] int page_number(glm::ivec3 page) const {
-    return page.x + pages_.x * (page.y + pages_.y * page.z);
-  }
+  [[nodiscard]] int page_number(glm::ivec3 page) const { return number_in(pages_, page); }
   [[nodiscard]] glm::ivec3 page_of(glm::ivec3 voxel) const {
     return {voxel.x >> shift_.x, voxel.y >> shift_.y, voxel.z >> shift_.z};
   }

@@ -13,6 +13,7 @@ namespace tidemark::renderer {
 namespace {
 
 constexpr int kMostLayers = 64;  // of surface, labels and clip plane along a ray
+constexpr float kFar = 96.0F;    // voxels that pieces may span which are shaded together
 
 float least(glm::vec3 v) {
   return std::min({v.x, v.y, v.z});
@@ -293,11 +294,12 @@ void RayCaster::add_piece(Ray& ray, float end, float phi, Pieces& pieces) const 
   pieces.from[piece] = std::exchange(ray.t, end);
   pieces.to[piece] = end;
   pieces.phi[piece + 1] = phi;
-  if (pieces.count == (ray.picks ? 1 : Pieces::kMost)) shade(ray, pieces);
+  const int most = ray.picks ? 1 : Pieces::kMost;
+  if (pieces.count == most || end - pieces.to[0] > kFar) shade(ray, pieces);
 }
 
+// A gap at the end is made longer.
 void RayCaster::leap(Ray& ray, float end, Pieces& pieces) const {
-  constexpr float kFar = 64.0F;  // pieces that are shaded together read voxels near one another
   if (pieces.ends_with_gap()) --pieces.count;
   if (pieces.count > 0 && end - pieces.to[0] > kFar) shade(ray, pieces);
   ray.t = end;

@@ -98,7 +98,7 @@ class RayCaster {
   void add_piece(Ray& ray, float end, float phi, Pieces& pieces) const;
   // Nothing shows on the way.
   void leap(Ray& ray, float end, Pieces& pieces) const;
-  // phi where the next piece begins.
+  // The next piece begins with this phi.
   void set_phi(Ray& ray, float phi, Pieces& pieces) const;
   void shade(Ray& ray, Pieces& pieces) const;
   [[nodiscard]] float crossing(const Ray& ray, Piece piece) const;

@@ -1,5 +1,8 @@
 #include "renderer/host/shade_pieces.h"
 
+#include <algorithm>
+#include <cstdint>
+
 // This file is compiled once for each of these instruction sets; the best one is chosen when the program
 // runs.
 #undef HWY_TARGET_INCLUDE
@@ -56,8 +59,8 @@ HWY_INLINE V integral(const PieceScene::Factor& shape, V u) {
   return hn::Mul(set(0.88622693F), error_function(u));  // sqrt(pi) / 2
 }
 
-// The lanes moved up by one; `first` comes below them. In registers, as a vector that is loaded from where
-// its lanes were just stored waits for them.
+// The lanes moved up by one; `first` comes below them. They stay in registers: a load of what was just stored
+// would wait.
 HWY_INLINE V move_up(float first, V lanes) {
   alignas(64) static constexpr std::int32_t kFrom[16] = {0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
   static_assert(kLanes <= 16);

@@ -36,8 +36,8 @@ struct PieceScene {
   glm::vec3 light{0.0F};  // unit vectors in mm along the voxel axes: to the light, and half-way to the viewer
   glm::vec3 half_way{0.0F};
   float ambient = 0.0F, diffuse = 0.0F, specular = 0.0F, shininess = 1.0F;
-  float least_mirrored =
-      0.0F;  // cosine of the half-way direction and the slope below which nothing is specular
+  // The cosine of the angle between the half-way direction and the slope below which nothing is specular.
+  float least_mirrored = 0.0F;
 };
 
 // Neighbouring pieces of a ray. Some of them are gaps, in which nothing shows.
@@ -52,8 +52,8 @@ struct Pieces {
   float shows_from = 0.0F;           // the source shows between these places alone
   float shows_to = 0.0F;
 
-  // The source where the pieces before these ended, and the integrals of the primitives' factors of it. There
-  // are none before the first ones, which therefore begin with a gap.
+  // The source where the pieces before these ended, and the integrals of the primitives' factors of it. The
+  // first pieces of a ray begin with a gap, which sets both.
   float value = 0.0F;
   using Integrals = std::array<float, TransferFunction::kMostPrimitives>;
   Integrals integrals{};

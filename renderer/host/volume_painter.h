@@ -12,8 +12,8 @@
 namespace tidemark::renderer {
 
 // Draws a view that is resolved() over a picture, at the pixels where `wanted` is not 0; all when it is
-// empty. Fails (ErrorKind::cancelled) on a request to stop. The pixels do not depend on the number of
-// threads.
+// empty. Fails (ErrorKind::cancelled) on a request to stop, with the picture half painted. The pixels do not
+// depend on the number of threads.
 Status paint_volume(HostScene& scene, const VolumeView& view, Picture& picture,
                     std::span<const std::uint8_t> wanted, ThreadPool& threads, const Progress& progress);
 

@@ -13,20 +13,14 @@ namespace {
 // together.
 constexpr std::int64_t kLongestRun = 8;
 
-// Where a voxel of the grid lies in an array of that shape whose first voxel is `first`.
-std::int64_t offset(Index3 voxel, Index3 first, Index3 shape) {
-  const Index3 at = voxel - first;
-  return at.x + shape.x * (at.y + shape.y * at.z);
-}
-
 // Copies a part of the grid from one array to another.
 void copy(const VoxelBox& part, const std::int16_t* from, const VoxelBox& from_box, std::int16_t* to,
           const VoxelBox& to_box) {
   for (std::int64_t z = 0; z < part.size.z; ++z) {
     for (std::int64_t y = 0; y < part.size.y; ++y) {
       const Index3 row = part.first + Index3(0, y, z);
-      std::copy_n(from + offset(row, from_box.first, from_box.size), part.size.x,
-                  to + offset(row, to_box.first, to_box.size));
+      std::copy_n(from + number_in(from_box.size, row - from_box.first), part.size.x,
+                  to + number_in(to_box.size, row - to_box.first));
     }
   }
 }

@@ -38,7 +38,7 @@ void for_inner_voxels(const Block& block, const Visit& visit) {
   const Index3 size = block.box.size;
   for (std::int64_t z = 1; z < size.z - 1; ++z) {
     for (std::int64_t y = 1; y < size.y - 1; ++y) {
-      const std::int64_t row = size.x * (y + size.y * z);
+      const std::int64_t row = number_in(size, Index3(0, y, z));
       for (std::int64_t x = 1; x < size.x - 1; ++x) visit(row + x);
     }
   }

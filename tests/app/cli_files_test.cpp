@@ -141,6 +141,7 @@ void CliFilesTest::pictures_are_drawn_from_masks_and_fields() {
       {"--mask", text(folder / "mask.nrrd"), "--view", "oblique", "--normal", "1,1,0.5", "--nearest",
        "--annotate"},
       {"--view", "axial", "--labels", text(folder / "mask.nrrd")},
+      {"--view", "3d", "--labels", text(folder / "mask.nrrd")},
       {"--view", "speed", "--target", "1000", "--range", "500"},
       {"--phi", text(folder / "phi.nrrd"), "--view", "speed", "--target", "1000", "--range", "500", "--term",
        "total"},

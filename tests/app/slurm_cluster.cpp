@@ -112,11 +112,11 @@ MaxArraySize={4}
   fs::create_directories(folder / "state");
   must_write(folder / "slurm.conf", text);
   must_write(folder / "plugstack.conf", "");
-  // Later versions ask for control groups otherwise; earlier ones do not know the word.
+  // No control groups, which not every system has. Earlier versions do not know the word; what they are given
+  // looks for nothing that nobody asks for.
   constexpr double kKnowsDisabled = 23.11;
-  if (version_of(daemon_path("slurmctld")) >= kKnowsDisabled) {
-    must_write(folder / "cgroup.conf", "CgroupPlugin=disabled\n");
-  }
+  const bool knows = version_of(daemon_path("slurmctld")) >= kKnowsDisabled;
+  must_write(folder / "cgroup.conf", fmt::format("CgroupPlugin={}\n", knows ? "disabled" : "cgroup/v1"));
 }
 
 void write_key(const fs::path& file) {

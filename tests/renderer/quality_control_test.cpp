@@ -76,6 +76,23 @@ class QualityControlTest : public QObject {
     for (int i = 0; i < 20; ++i) QCOMPARE(width_of_next(0.040), 256);
   }
 
+  void one_slow_picture_does_not_make_the_next_ones_coarse_for_good() {
+    const renderer::PictureSize full{512, 512};
+    renderer::QualityControl control;
+    const auto width_of_next = [&](double seconds_at_half) {
+      control.moved();
+      const renderer::Pass pass = *control.next(full);
+      const double share = static_cast<double>(pass.size.width * pass.size.height) / (256.0 * 256.0);
+      control.drawn(pass, seconds_at_half * share);
+      return pass.size.width;
+    };
+    QCOMPARE(width_of_next(0.040), 128);
+    QCOMPARE(width_of_next(0.040), 256);
+    QCOMPARE(width_of_next(0.075), 256);  // something else was busy
+    for (int i = 0; i < 4; ++i) width_of_next(0.040);
+    for (int i = 0; i < 10; ++i) QCOMPARE(width_of_next(0.040), 256);
+  }
+
   void a_pixel_is_uneven_beside_another_that_differs() {
     renderer::Picture picture{5, 4, std::vector<std::uint8_t>(4 * 5 * 4, 100)};
     QVERIFY(

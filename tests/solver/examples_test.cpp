@@ -52,7 +52,7 @@ void add_disc(std::vector<std::int64_t>& stroke, Index3 centre) {
   for (std::int64_t y = -2; y <= 2; ++y) {
     for (std::int64_t x = -2; x <= 2; ++x) {
       const Index3 v = centre + Index3(x, y, 0);
-      stroke.push_back(v.x + kGrid.x * (v.y + kGrid.y * v.z));
+      stroke.push_back(number_in(kGrid, v));
     }
   }
   std::sort(stroke.begin(), stroke.end());

@@ -5,6 +5,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/result.h"
@@ -27,13 +28,23 @@ QByteArray bytes_of(const std::filesystem::path& file);
 // Sets a variable of the environment as long as it lives.
 class Variable {
  public:
-  Variable(const char* name, const QByteArray& value) : name_(name) { qputenv(name, value); }
+  Variable(const char* name, const QByteArray& value) : name_(name) {
+    if (qEnvironmentVariableIsSet(name)) before_ = qgetenv(name);
+    qputenv(name, value);
+  }
   Variable(const Variable&) = delete;
   Variable& operator=(const Variable&) = delete;
-  ~Variable() { qunsetenv(name_); }
+  ~Variable() {
+    if (before_) {
+      qputenv(name_, *before_);
+    } else {
+      qunsetenv(name_);
+    }
+  }
 
  private:
   const char* name_;
+  std::optional<QByteArray> before_;
 };
 
 // The folder of real studies: $TIDEMARK_STUDIES, else ../shared/data beside the checkout.

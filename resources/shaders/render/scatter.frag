@@ -8,5 +8,5 @@ out float phi;
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy) - tile_origin;
-  phi = texelFetch(staged, first + texel.x + kTile.x * texel.y).r;
+  phi = texelFetch(staged, first + number_in_tile(texel)).r;
 }

@@ -38,7 +38,15 @@ ivec3 page_origin(int physical) {
 ivec3 texel_in_page(ivec3 local) {
   return ivec3(local.x + PAGE_X * (local.z % TILE_COLUMNS), local.y + PAGE_Y * (local.z / TILE_COLUMNS), 0);
 }
-// The texel of that number in a page's tile.
+// The texel of that number in a page's tile, and back.
 ivec3 texel_of_tile(int number) {
   return ivec3(number % kTile.x, number / kTile.x, 0);
+}
+int number_in_tile(ivec2 texel) { return texel.x + kTile.x * texel.y; }
+
+// Where layers follow each other along y: the height of a full one, and the first texel of a page by its column and row
+// among pages, 16 bits each.
+const int kLayerHeight = ROWS_PER_LAYER * kTile.y;
+ivec2 texel_of_page(int column_and_row) {
+  return ivec2(column_and_row & 0xffff, column_and_row >> 16 & 0xffff) * kTile;
 }

@@ -61,7 +61,7 @@ void copy_box(const double* values, const VoxelBox& box, const VoxelBox& into, V
   const Index3 at = box.first - into.first;
   for (std::int64_t z = 0; z < box.size.z; ++z) {
     for (std::int64_t y = 0; y < box.size.y; ++y, values += box.size.x) {
-      std::copy_n(values, box.size.x, to + at.x + into.size.x * (at.y + y + into.size.y * (at.z + z)));
+      std::copy_n(values, box.size.x, to + number_in(into.size, at + Index3(0, y, z)));
     }
   }
 }
@@ -91,7 +91,7 @@ std::vector<std::int64_t> middles(Index3 cells, Index3 step, Index3 box) {
     for (cell.y = 0; cell.y < cells.y; ++cell.y) {
       for (cell.x = 0; cell.x < cells.x; ++cell.x) {
         const Index3 v = glm::min(cell * step + step / Index3(2), box - Index3(1));
-        places.push_back(v.x + box.x * (v.y + box.y * v.z));
+        places.push_back(number_in(box, v));
       }
     }
   }

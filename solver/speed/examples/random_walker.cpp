@@ -62,7 +62,7 @@ void relax(const WalkerNetwork& network, int sweeps, std::vector<float>& u, Thre
     threads.for_each(size.z, 2, [&](std::int64_t first, std::int64_t last, int) {
       for (std::int64_t z = first; z < last; ++z) {
         for (std::int64_t y = 0; y < size.y; ++y) {
-          const std::int64_t row = size.x * (y + size.y * z);
+          const std::int64_t row = number_in(size, Index3(0, y, z));
           for (std::int64_t x = (y + z + half) % 2; x < size.x; x += 2) {
             const std::size_t i = at(row + x);
             if (network.fixed[i] >= 0) continue;

@@ -67,7 +67,7 @@ void reduce_slices(const Reduction& r, const ReadRow& read, std::int64_t first, 
     for (std::int64_t y = 0; y < r.size.y; ++y) {
       sum_lines(row_at, y * r.factor.y, r.from.y, r.weights[1], r.from.x, row.data());
       const auto value_at = [&](std::int64_t i) { return &row[at(i)]; };
-      float* out = result + r.size.x * (y + r.size.y * z);
+      float* out = result + number_in(r.size, Index3(0, y, z));
       for (std::int64_t x = 0; x < r.size.x; ++x) {
         sum_lines(value_at, x * r.factor.x, r.from.x, r.weights[0], 1, out + x);
       }
@@ -104,7 +104,7 @@ Reduction reduction(const ScaleGrid& from, double from_mm, double to_mm) {
 
 ReadRow rows_of(const ScaleGrid& grid, bool squared) {
   return [&grid, squared](std::int64_t y, std::int64_t z, float* row) {
-    const std::size_t line = at(grid.size.x * (y + grid.size.y * z));
+    const std::size_t line = at(number_in(grid.size, Index3(0, y, z)));
     for (std::size_t x = 0; x < at(grid.size.x); ++x)
       row[x] = squared ? grid.square(line + x) : grid.mean[line + x];
   };

@@ -27,7 +27,7 @@ std::vector<float> cell_values(const Volume& image, const WalkerGrid& grid, Thre
       std::vector<float> counts(at(size.x));
       for (std::int64_t z = first; z < last && !progress.cancelled(); ++z) {
         for (std::int64_t y = 0; y < size.y; ++y) {
-          float* row = &values[at(size.x * (y + size.y * z))];
+          float* row = &values[at(number_in(size, Index3(0, y, z)))];
           std::fill(counts.begin(), counts.end(), 0.0F);
           const Index3 begin = Index3(0, y, z) * grid.step;
           const Index3 end =
@@ -91,7 +91,7 @@ void remove_last_links(int axis, WalkerNetwork& network) {
   for (v.z = last.z; v.z < network.size.z; ++v.z) {
     for (v.y = last.y; v.y < network.size.y; ++v.y) {
       for (v.x = last.x; v.x < network.size.x; ++v.x) {
-        network.link[at(axis)][at(v.x + network.size.x * (v.y + network.size.y * v.z))] = 0.0F;
+        network.link[at(axis)][at(number_in(network.size, v))] = 0.0F;
       }
     }
   }
@@ -110,7 +110,7 @@ void fix_strokes(const Strokes& strokes, const WalkerGrid& grid, const Geometry&
   const auto count = [&](const std::vector<std::int64_t>& stroke, std::int32_t by) {
     for (const std::int64_t offset : stroke) {
       const Index3 cell = (geometry.voxel_at(offset) - grid.box.first) / grid.step;
-      balance[at(cell.x + network.size.x * (cell.y + network.size.y * cell.z))] += by;
+      balance[at(number_in(network.size, cell))] += by;
     }
   };
   count(strokes.inside, 1);
@@ -209,7 +209,7 @@ WalkerNetwork coarser(const WalkerNetwork& fine) {
     for (v.y = 0; v.y < fine.size.y; ++v.y) {
       for (v.x = 0; v.x < fine.size.x; ++v.x, ++i) {
         const Index3 cell = v / factor;
-        const std::size_t c = at(cell.x + coarse.size.x * (cell.y + coarse.size.y * cell.z));
+        const std::size_t c = at(number_in(coarse.size, cell));
         coarse.end[c] += fine.end[at(i)];
         coarse.prior[c] += fine.end[at(i)] * fine.prior[at(i)];
         if (fine.fixed[at(i)] >= 0) kinds[c] |= fine.fixed[at(i)] > 0 ? 2 : 1;

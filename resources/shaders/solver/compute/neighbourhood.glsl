@@ -89,13 +89,13 @@ void find_columns(int page_along_z) {
     ivec3 voxel = clamp(ivec3(place, 0), lowest, highest);  // Neumann at the volume's border
     ivec3 step = page_step(voxel);
     ivec3 page = page_origin(neighbours[13 + step.x + 3 * step.y + 9 * page_along_z]);
-    column_start[i] = page + ivec3(voxel.xy - step.xy * kPageShape.xy, 0);
+    column_start[i] = page + texel_in_page(ivec3(voxel.xy - step.xy * kPageShape.xy, 0));
   }
 }
 void load_row(int row, ivec3 shift, inout float slice[SLICE_VALUES]) {
   int part = row == 0 ? 0 : row == BLOCK + 1 ? 2 : 1;
   // Rows of the block beyond the volume repeat its last row.
-  ivec3 texel = shift + ivec3(0, part == 1 ? clamp(highest.y - block_start.y, 0, row - 1) : 0, 0);
+  ivec3 texel = shift + texel_in_page(ivec3(0, part == 1 ? clamp(highest.y - block_start.y, 0, row - 1) : 0, 0));
   slice[3 * row] = texelFetch(phi_now, column_start[3 * part] + texel, 0).r;
   slice[3 * row + 1] = texelFetch(phi_now, column_start[3 * part + 1] + texel, 0).r;
   slice[3 * row + 2] = texelFetch(phi_now, column_start[3 * part + 2] + texel, 0).r;

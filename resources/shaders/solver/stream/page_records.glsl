@@ -21,11 +21,7 @@ const int kPlacesPerRow = 32;
 int record(int page, int field) { return texelFetch(page_records, page * kRecordLength + field).r; }
 
 // The first texel of a page in G, whose layers follow each other along y.
-ivec2 page_address(int page, int field) {
-  int packed_address = record(page, field);
-  return ivec2(packed_address & 0xffff, packed_address >> 16 & 0xffff) * kTile;
-}
-const int kLayerHeight = ROWS_PER_LAYER * PAGE_Y * (PAGE_Z / TILE_COLUMNS);  // texels, of a full layer
+ivec2 page_address(int page, int field) { return texel_of_page(record(page, field)); }
 
 ivec3 first_voxel(int page) {
   int xy = record(page, kFirstVoxel);
