@@ -207,9 +207,9 @@ Status check(const RenderOptions& options) {
   if ((options.region == "inside" || options.region == "outside") && !has_surface(options)) {
     return fail(ErrorKind::usage, "--roi {} needs --mask or --phi", options.region);
   }
-  if (options.view == "3d" && !has_surface(options) && options.preset.empty() &&
+  if (options.view == "3d" && !has_surface(options) && options.labels.empty() && options.preset.empty() &&
       options.transfer_function.empty()) {
-    return fail(ErrorKind::usage, "nothing to show: give --mask, --phi, --preset or --tf");
+    return fail(ErrorKind::usage, "nothing to show: give --mask, --phi, --labels, --preset or --tf");
   }
   return {};
 }
