@@ -11,6 +11,16 @@
 
 namespace tidemark::test::quality_control_test {
 
+// The width of the next moving picture of 512 x 512. One of half that a side takes `seconds`, and others by
+// that power of their pixels.
+std::int64_t draw_moving(renderer::QualityControl& control, double seconds, double power) {
+  control.moved();
+  const renderer::Pass pass = *control.next({512, 512});
+  const double share = static_cast<double>(pass.size.width * pass.size.height) / (256.0 * 256.0);
+  control.drawn(pass, seconds * std::pow(share, power));
+  return pass.size.width;
+}
+
 class QualityControlTest : public QObject {
   Q_OBJECT
 
@@ -57,15 +67,8 @@ class QualityControlTest : public QObject {
 
   // A pixel of a smaller picture takes longer than one of a larger, which is found out and kept.
   void the_size_settles_where_it_fits() {
-    const renderer::PictureSize full{512, 512};
     renderer::QualityControl control;
-    const auto width_of_next = [&](double seconds_at_half) {
-      control.moved();
-      const renderer::Pass pass = *control.next(full);
-      const double share = static_cast<double>(pass.size.width * pass.size.height) / (256.0 * 256.0);
-      control.drawn(pass, seconds_at_half * std::pow(share, 0.75));
-      return pass.size.width;
-    };
+    const auto width_of_next = [&](double seconds) { return draw_moving(control, seconds, 0.75); };
     QCOMPARE(width_of_next(0.040), 128);
     QCOMPARE(width_of_next(0.040), 170);
     for (int i = 0; i < 20; ++i) QCOMPARE(width_of_next(0.040), 256);
@@ -77,15 +80,8 @@ class QualityControlTest : public QObject {
   }
 
   void one_slow_picture_does_not_make_the_next_ones_coarse_for_good() {
-    const renderer::PictureSize full{512, 512};
     renderer::QualityControl control;
-    const auto width_of_next = [&](double seconds_at_half) {
-      control.moved();
-      const renderer::Pass pass = *control.next(full);
-      const double share = static_cast<double>(pass.size.width * pass.size.height) / (256.0 * 256.0);
-      control.drawn(pass, seconds_at_half * share);
-      return pass.size.width;
-    };
+    const auto width_of_next = [&](double seconds) { return draw_moving(control, seconds, 1.0); };
     QCOMPARE(width_of_next(0.040), 128);
     QCOMPARE(width_of_next(0.040), 256);
     QCOMPARE(width_of_next(0.075), 256);  // something else was busy
