@@ -229,15 +229,16 @@ Result<ShownPicture> CasePainter::paint(ViewSlot& slot, const View& view, render
     shown.texture = std::move(*texture);
     return shown;
   }
-  if constexpr (std::is_same_v<View, renderer::VolumeView>) {
-    if (into_mean) {
-      TIDEMARK_TRY(canvas.renderer->add_round(view, size, slot.mean, progress));
-      if (canvas.gl != nullptr) ++pictures_read_back_;
-      shown.image = to_image(slot.mean.mean());
-      return shown;
+  const auto draw = [&]() -> Result<renderer::Picture> {
+    if constexpr (std::is_same_v<View, renderer::VolumeView>) {
+      if (into_mean) {
+        TIDEMARK_TRY(canvas.renderer->add_round(view, size, slot.mean, progress));
+        return slot.mean.mean();
+      }
     }
-  }
-  const auto picture = canvas.renderer->draw(view, size, progress);
+    return canvas.renderer->draw(view, size, progress);
+  };
+  const auto picture = draw();
   if (!picture) return pass_on(picture);
   if (canvas.gl != nullptr) ++pictures_read_back_;
   shown.image = to_image(*picture);

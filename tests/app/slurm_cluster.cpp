@@ -112,8 +112,8 @@ MaxArraySize={4}
   fs::create_directories(folder / "state");
   must_write(folder / "slurm.conf", text);
   must_write(folder / "plugstack.conf", "");
-  // No control groups, which not every system has. Earlier versions do not know the word; what they are given
-  // looks for nothing that nobody asks for.
+  // No control groups, which not every system has. Earlier versions do not know the word "disabled"; their
+  // first plugin looks for groups only once a task asks for one.
   constexpr double kKnowsDisabled = 23.11;
   const bool knows = version_of(daemon_path("slurmctld")) >= kKnowsDisabled;
   must_write(folder / "cgroup.conf", fmt::format("CgroupPlugin={}\n", knows ? "disabled" : "cgroup/v1"));

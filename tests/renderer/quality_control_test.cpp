@@ -21,6 +21,11 @@ std::int64_t draw_moving(renderer::QualityControl& control, double seconds, doub
   return pass.size.width;
 }
 
+// Seconds that a moving picture may take whose sides are divided by that.
+double budget_of(std::int64_t divisor) {
+  return divisor == 2 ? 0.0495 : renderer::QualityControl::kInteractive;
+}
+
 class QualityControlTest : public QObject {
   Q_OBJECT
 
@@ -34,8 +39,8 @@ class QualityControlTest : public QObject {
         const renderer::Pass pass = *control.next(full);
         const double seconds = pixel_seconds * static_cast<double>(pass.size.width * pass.size.height);
         control.drawn(pass, seconds);
-        const double budget = pass.size.width == full.width / 2 ? 0.05 : 0.0331;
-        if (i > 0) QVERIFY2(seconds <= budget, qPrintable(QString::number(seconds)));
+        if (i > 0)
+          QVERIFY2(seconds <= budget_of(full.width / pass.size.width), qPrintable(QString::number(seconds)));
       }
       // As fine as the budget allows.
       control.moved();
@@ -43,26 +48,19 @@ class QualityControlTest : public QObject {
       const std::int64_t divisor = full.width / size.width;
       const double finer =
           pixel_seconds * 1000.0 * 800.0 / static_cast<double>((divisor - 1) * (divisor - 1));
-      QVERIFY(divisor == 1 || finer > (divisor == 3 ? 0.049 : 0.033));
+      QVERIFY(divisor == 1 || finer > budget_of(divisor - 1));
     }
   }
 
   void half_the_resolution_is_kept_down_to_twenty_pictures_a_second() {
-    const renderer::PictureSize full{400, 400};
-    const auto width_for = [&](double half_picture_seconds) {
+    const auto width_for = [](double seconds) {
       renderer::QualityControl control;
-      for (int i = 0; i < 3; ++i) {
-        control.moved();
-        const renderer::Pass pass = *control.next(full);
-        control.drawn(
-            pass, half_picture_seconds * static_cast<double>(pass.size.width * pass.size.height) / 40'000.0);
-      }
-      control.moved();
-      return control.next(full)->size.width;
+      for (int i = 0; i < 3; ++i) draw_moving(control, seconds, 1.0);
+      return draw_moving(control, seconds, 1.0);
     };
-    QCOMPARE(width_for(0.040), 200);
-    QCOMPARE(width_for(0.049), 200);
-    QCOMPARE(width_for(0.055), 133);
+    QCOMPARE(width_for(0.040), 256);
+    QCOMPARE(width_for(0.049), 256);
+    QCOMPARE(width_for(0.055), 170);
   }
 
   // A pixel of a smaller picture takes longer than one of a larger, which is found out and kept.
