@@ -24,6 +24,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
       askers_(WeakReceiver::of(this)),
       sweep_(std::make_unique<CaseSweep>(*this)),
       label_finisher_(std::make_unique<LabelFinisher>(*this)),
+      region_meter_(std::make_unique<RegionMeter>(*this)),
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;

@@ -36,6 +36,7 @@ class CaseRunner;
 class CaseSweep;
 class LabelFinisher;
 class LockStep;
+class RegionMeter;
 class WantedMap;
 class WeakReceiver;
 struct RecordedStep;
@@ -145,6 +146,7 @@ class CaseProxy : public QObject {
   // A stroke of the brush: one entry of the history.
   void brush_label(document::LabelRegion stroke, document::Labels::Stroke what, document::Take take);
   [[nodiscard]] LabelFinisher& label_finisher() { return *label_finisher_; }
+  [[nodiscard]] RegionMeter& region_meter() { return *region_meter_; }
   // With `within_mm` the label is refined: the surface stays that near to it.
   void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
@@ -216,6 +218,7 @@ class CaseProxy : public QObject {
   std::shared_ptr<LockStep> lock_step_;
   std::unique_ptr<CaseSweep> sweep_;
   std::unique_ptr<LabelFinisher> label_finisher_;
+  std::unique_ptr<RegionMeter> region_meter_;
   CaseState state_;
   std::unique_ptr<CaseBalance> balance_;
   std::unique_ptr<WantedMap> truth_error_;

@@ -31,17 +31,35 @@ Result<Answer> computed(const Wanted& wanted, const Progress& progress) {
 
 }  // namespace
 
-RegionMeter::RegionMeter(QObject* parent) : JobRunner(parent) {}
+RegionMeter::RegionMeter(CaseProxy& proxy) : proxy_(proxy) {
+  connect(&proxy, &CaseProxy::state_changed, this, &RegionMeter::follow_case);
+}
 
-void RegionMeter::begin(CaseProxy& proxy, std::uint8_t label) {
-  const CaseState& state = proxy.state();
-  Wanted wanted{{proxy.volume().geometry, state.labels, state.label_voxels, state.phi},
+void RegionMeter::begin(std::uint8_t label) {
+  clear();
+  const CaseState& state = proxy_.state();
+  label_ = label;
+  step_ = state.step;
+  edits_ = state.edits;
+  Wanted wanted{{proxy_.volume().geometry, state.labels, state.label_voxels, state.phi},
                 label,
-                {proxy.name().toStdString(), proxy.study().volume},
+                {proxy_.name().toStdString(), proxy_.study().volume},
                 {}};
-  for (const ShownImage& shown : proxy.display().settings().images) wanted.images.push_back(shown.image);
+  for (const ShownImage& shown : proxy_.display().settings().images) wanted.images.push_back(shown.image);
   run([wanted = std::move(wanted)](const Progress& progress) { return computed(wanted, progress); },
-      [this](const Answer& measures) { emit measured(measures); });
+      [this](Answer measures) {
+        measures_ = std::move(measures);
+        emit changed();
+      });
+}
+
+void RegionMeter::clear() {
+  give_up();
+  if (std::exchange(measures_, nullptr) != nullptr) emit changed();
+}
+
+void RegionMeter::follow_case() {
+  if (proxy_.state().step != step_ || proxy_.state().edits != edits_) clear();
 }
 
 }  // namespace tidemark::engine

@@ -1,6 +1,7 @@
 // The measures of a case's surface or of one of its labels, found beside the user interface.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "document/measures.h"
@@ -10,18 +11,34 @@ namespace tidemark::engine {
 
 class CaseProxy;
 
+// Measures stay until the case changes.
 class RegionMeter : public JobRunner {
   Q_OBJECT
  public:
-  explicit RegionMeter(QObject* parent = nullptr);
+  // Belongs to the proxy, and does not outlive it.
+  explicit RegionMeter(CaseProxy& proxy);
 
   // Of document::kTheSurface or a label, as they are now: with the values of the study and of all images of
-  // the display on its grid. Ends with measured(), failed() or cancelled().
-  void begin(CaseProxy& proxy, std::uint8_t label);
+  // the display on its grid. Ends with changed(), failed() or cancelled().
+  void begin(std::uint8_t label);
   void cancel() { give_up(); }
+  void clear();  // the measures, and what is being computed
+
+  // Of label() in the case as it is now; null: there are none.
+  [[nodiscard]] const std::shared_ptr<const document::Measures>& measures() const { return measures_; }
+  [[nodiscard]] std::uint8_t label() const { return label_; }
 
  signals:
-  void measured(const std::shared_ptr<const document::Measures>& measures);
+  void changed();  // measures()
+
+ private:
+  void follow_case();
+
+  CaseProxy& proxy_;
+  std::uint8_t label_ = document::kTheSurface;
+  std::int64_t step_ = 0;  // of the case when it was asked
+  std::uint64_t edits_ = 0;
+  std::shared_ptr<const document::Measures> measures_;
 };
 
 }  // namespace tidemark::engine

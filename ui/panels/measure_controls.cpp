@@ -30,14 +30,18 @@ MeasureControls::MeasureControls(QWidget* parent) : CaseWidget(parent) {
   Form form(this);
   form.heading(tr("Diameters and values"));
   region_ = form.choice(tr("Of"), tr("What is measured."));
-  connect(region_, &QComboBox::activated, this, [this] { show_measures(nullptr); });
+  connect(region_, &QComboBox::activated, this, [this] {
+    if (meter()) meter()->clear();
+  });
   measure_ = new QPushButton(tr("Measure"));
   measure_->setToolTip(tr("Diameters, form, and the values of all images inside."));
   form.wide(measure_);
   connect(measure_, &QPushButton::clicked, this, &MeasureControls::measure);
   work_ = new WorkLine;
   form.wide(work_);
-  connect(work_, &WorkLine::cancelled, this, [this] { meter_.cancel(); });
+  connect(work_, &WorkLine::cancelled, this, [this] {
+    if (meter()) meter()->cancel();
+  });
   results_ = new QWidget;
   Form figures(results_);
   in_slice_ =
@@ -59,34 +63,26 @@ MeasureControls::MeasureControls(QWidget* parent) : CaseWidget(parent) {
   result_rows_ = figures.layout();
   form.wide(results_);
   rows_ = form.layout();
-  connect(&meter_, &engine::RegionMeter::measured, this, [this](const auto& measures) {
-    end_work({});
-    show_measures(measures);
-  });
-  connect(&meter_, &engine::RegionMeter::failed, this, &MeasureControls::end_work);
-  connect(&meter_, &engine::RegionMeter::cancelled, this, [this] { end_work({}); });
-  connect(&meter_, &engine::RegionMeter::progressed, work_, &WorkLine::set_progress);
   end_work({});
-  show_measures(nullptr);
+  show_measures();
 }
 
-std::uint8_t MeasureControls::region() const {
-  return static_cast<std::uint8_t>(region_->currentData().toInt());
+engine::RegionMeter* MeasureControls::meter() const {
+  return proxy() ? &proxy()->region_meter() : nullptr;
+}
+
+const document::Measures* MeasureControls::measures() const {
+  return meter() ? meter()->measures().get() : nullptr;
 }
 
 void MeasureControls::measure() {
-  if (!proxy()) return;
-  show_measures(nullptr);
-  show_row(*rows_, work_, true);
-  work_->begin(tr("Measuring"));
-  step_ = proxy()->state().step;
-  edits_ = proxy()->state().edits;
-  meter_.begin(*proxy(), region());
-  show_buttons();
+  if (!meter()) return;
+  meter()->begin(static_cast<std::uint8_t>(region_->currentData().toInt()));
+  show_work();
 }
 
-void MeasureControls::show_measures(const std::shared_ptr<const document::Measures>& measures) {
-  measures_ = measures;
+void MeasureControls::show_measures() {
+  const document::Measures* const measures = this->measures();
   show_row(*rows_, results_, measures != nullptr);
   image_->clear();
   if (measures) {
@@ -97,7 +93,7 @@ void MeasureControls::show_measures(const std::shared_ptr<const document::Measur
     longest_->setText(mm(d.longest.length_mm()));
     reach_->setText(times({number(d.reach_mm.x), number(d.reach_mm.y), mm(d.reach_mm.z)}));
     // As the solver measures it, which stands above, but where the study's end cuts the surface.
-    const bool as_above = proxy() && region() == document::kTheSurface && !measures->is_cut;
+    const bool as_above = meter()->label() == document::kTheSurface && !measures->is_cut;
     const double area_mm2 = as_above ? proxy()->state().surface.surface_mm2 : measures->area_mm2;
     area_->setText(number_text(area_mm2, 0, tr("mm²")));
     sphericity_->setText(number_text(measures->sphericity, 3));
@@ -111,8 +107,8 @@ void MeasureControls::show_measures(const std::shared_ptr<const document::Measur
 
 void MeasureControls::fill_values() {
   std::vector<QStringList> lines;
-  if (measures_ && image_->currentIndex() >= 0) {
-    const document::ImageValues& image = measures_->images[static_cast<std::size_t>(image_->currentIndex())];
+  if (measures() && image_->currentIndex() >= 0) {
+    const document::ImageValues& image = measures()->images[static_cast<std::size_t>(image_->currentIndex())];
     const imaging::InsideValues& inside = image.values;
     const QString unit = QString::fromStdString(image.unit);
     const auto add = [&](const QString& name, double value) {
@@ -137,8 +133,8 @@ void MeasureControls::fill_values() {
 
 // The slices go to the diameter that one of them shows.
 void MeasureControls::draw_lines() {
-  if (!measures_) return;
-  const imaging::Diameters& d = measures_->diameters;
+  if (!measures()) return;
+  const imaging::Diameters& d = measures()->diameters;
   change_display([&](engine::DisplaySettings& settings) {
     for (const imaging::Chord* chord : {&d.longest, &d.in_slice, &d.across}) {
       const engine::Measurement line = line_of(*chord);
@@ -150,7 +146,13 @@ void MeasureControls::draw_lines() {
 }
 
 void MeasureControls::show_buttons() {
-  measure_->setEnabled(region_->count() > 0 && !meter_.busy());
+  measure_->setEnabled(region_->count() > 0 && meter() && !meter()->busy());
+}
+
+void MeasureControls::show_work() {
+  work_->begin(tr("Measuring"));
+  show_row(*rows_, work_, true);
+  show_buttons();
 }
 
 void MeasureControls::end_work(const QString& said) {
@@ -160,24 +162,29 @@ void MeasureControls::end_work(const QString& said) {
 }
 
 void MeasureControls::attach() {
-  meter_.cancel();
-  end_work({});
-  show_measures(nullptr);
+  if (shown_) disconnect(shown_, nullptr, this, nullptr);
+  shown_ = meter();
   region_->clear();
-  show_buttons();
+  end_work({});
+  show_measures();
+  if (!shown_) return;
+  connect(shown_, &engine::RegionMeter::changed, this, [this] {
+    end_work({});
+    show_measures();
+  });
+  connect(shown_, &engine::RegionMeter::failed, this, &MeasureControls::end_work);
+  connect(shown_, &engine::RegionMeter::cancelled, this, [this] { end_work({}); });
+  connect(shown_, &engine::RegionMeter::progressed, work_, &WorkLine::set_progress);
+  if (shown_->busy()) show_work();
 }
 
 void MeasureControls::refresh() {
   const engine::CaseState& state = proxy()->state();
-  const QVariant was = region_->currentData();
   std::vector<std::pair<QString, std::uint8_t>> regions;
   if (state.begun) regions.emplace_back(tr("Surface"), document::kTheSurface);
   for (const document::Label& label : state.labels)
     regions.emplace_back(QString::fromStdString(label.name), label.id);
   fill_regions(regions);
-  const bool same = region_->currentData() == was && state.step == step_ && state.edits == edits_;
-  if (!same && meter_.busy()) meter_.cancel();
-  if (!same && measures_) show_measures(nullptr);
   show_buttons();
 }
 
@@ -189,7 +196,8 @@ void MeasureControls::fill_regions(const std::vector<std::pair<QString, std::uin
     same = region_->itemText(n) == name && region_->itemData(n).toInt() == id;
   }
   if (same) return;
-  const QVariant was = region_->currentData();
+  const bool is_new = region_->count() == 0;
+  const int was = is_new ? meter()->label() : region_->currentData().toInt();
   region_->clear();
   for (const auto& [name, id] : regions) region_->addItem(name, id);
   region_->setCurrentIndex(std::max(region_->findData(was), 0));

@@ -1,8 +1,8 @@
 // The measures of the surface or of a label: diameters, form, and the values of all images inside.
 #pragma once
 
+#include <QPointer>
 #include <cstdint>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,7 +19,7 @@ namespace tidemark::ui {
 class FigureTable;
 class WorkLine;
 
-// They are found when asked for, and stay to be read until the case changes or another region is chosen.
+// They are found when asked for, and stay with the case until it changes or another region is chosen.
 class MeasureControls : public CaseWidget {
   Q_OBJECT
  public:
@@ -30,19 +30,18 @@ class MeasureControls : public CaseWidget {
   void refresh() override;
 
  private:
-  [[nodiscard]] std::uint8_t region() const;
+  [[nodiscard]] engine::RegionMeter* meter() const;          // null without a case
+  [[nodiscard]] const document::Measures* measures() const;  // null: there are none
   void measure();
-  void show_measures(const std::shared_ptr<const document::Measures>& measures);  // null: none
+  void show_measures();
   void fill_values();
   void fill_regions(const std::vector<std::pair<QString, std::uint8_t>>& regions);  // names and labels
   void draw_lines();
+  void show_work();
   void end_work(const QString& said);  // empty: nothing has to be said
   void show_buttons();
 
-  engine::RegionMeter meter_;
-  std::shared_ptr<const document::Measures> measures_;
-  std::int64_t step_ = 0;  // of the case when it was asked
-  std::uint64_t edits_ = 0;
+  QPointer<engine::RegionMeter> shown_;
   QFormLayout* rows_;
   QWidget* results_;  // all that was measured
   QFormLayout* result_rows_;

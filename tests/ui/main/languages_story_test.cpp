@@ -1,5 +1,6 @@
 // Languages: the same cases in another one at once, and whether each has all texts and they fit.
 #include <QDialog>
+#include <QLabel>
 #include <QMenuBar>
 #include <QRegularExpression>
 #include <QScopeGuard>
@@ -138,6 +139,25 @@ class LanguagesStoryTest : public QObject {
     desktop.speak("English");
     QCOMPARE(desktop.menu(0), QStringLiteral("File"));
     QCOMPARE(ui::settings::language().get(), QStringLiteral("en"));
+  }
+
+  void measures_stay_in_another_language() {
+    DesktopIn desktop("en");
+    QVERIFY(desktop.open_phantom("sphere"));
+    desktop.begin(10.0);
+    desktop.window().panels().show("statistics");
+    desktop.wait_until_idle();
+    QTest::mouseClick(seen<QAbstractButton>(desktop.window(), "Measure"), Qt::LeftButton);
+    const auto longest = [&] {
+      const auto* figure = find_seen<QLabel>(desktop.window(), "Longest");
+      return figure ? figure->text() : QString();
+    };
+    QVERIFY(Desktop::wait_for([&] { return !longest().isEmpty(); }));
+    const QString before = longest();
+    desktop.speak("Deutsch");
+    QVERIFY(longest().isEmpty());
+    desktop.speak("English");
+    QCOMPARE(longest(), before);
   }
 
   void work_that_is_on_its_way_is_not_given_up() {

@@ -126,11 +126,18 @@ void MeasureStoryTest::measures_are_of_the_case_and_the_surface_that_are_seen() 
   click(desktop, panel, "Measure");
   QVERIFY(wait_for_measures(panel));
   // Another case has another surface, and this one none.
+  ui::CaseWindow* const sphere = desktop.window().active_case();
   QVERIFY(desktop.open_phantom("dumbbell"));
   QVERIFY(find_seen<QAbstractButton>(panel, "Draw diameters") == nullptr);
   QVERIFY(!seen<QAbstractButton>(panel, "Measure")->isEnabled());
   QVERIFY(lines(desktop).empty());
   desktop.screenshot("measure-3-another-case");
+  // Measures stay with their case.
+  desktop.window().bring_to_front(*sphere);
+  QVERIFY(wait_for_measures(panel));
+  QVERIFY(first_number(seen<QLabel>(panel, "Longest")->text()) > 0.0);
+  sphere->proxy().paint({desktop.seed_mm(), 9.0}, solver::Brush::add, engine::CaseProxy::new_gesture());
+  QVERIFY(Desktop::wait_for([&] { return find_seen<QAbstractButton>(panel, "Draw diameters") == nullptr; }));
 }
 
 TIDEMARK_TEST(MeasureStoryTest)
