@@ -10,6 +10,7 @@
 #include "engine/case_sweep.h"
 #include "engine/label_finisher.h"
 #include "engine/lock_step.h"
+#include "engine/region_meter.h"
 #include "engine/surface_maps.h"
 #include "engine/wanted_map.h"
 

@@ -3,7 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include "document/label_tool.h"
 #include "engine/case_proxy.h"
 
 namespace tidemark::engine {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "document/label_tool.h"
 #include "document/measures.h"
 #include "engine/job_runner.h"
 
