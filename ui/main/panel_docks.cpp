@@ -164,22 +164,30 @@ void PanelDocks::show_or_hide() {
     if (!front_.isEmpty()) show(std::exchange(front_, {}));
   } else {
     arrangement_ = arrangement();
-    shown_ = false;
-    for (QDockWidget* dock : docks_) dock->hide();
+    hide();
   }
+}
+
+void PanelDocks::hide() {
+  shown_ = false;
+  for (QDockWidget* dock : docks_) dock->hide();
 }
 
 QByteArray PanelDocks::arrangement() const {
   return shown_ ? window_.saveState(kDocksVersion) : arrangement_;
 }
 
+// A window that was not shown yet does not know again which panel was in front.
 void PanelDocks::restore(const QByteArray& arrangement) {
-  if (!window_.restoreState(arrangement, kDocksVersion) &&
-      window_.restoreState(arrangement, kStateWithoutHistory)) {
-    window_.tabifyDockWidget(window_.findChild<QDockWidget*>("level-set"),
-                             window_.findChild<QDockWidget*>("history"));
+  arrangement_ = arrangement;
+  if (!window_.restoreState(arrangement, kDocksVersion)) {
+    if (window_.restoreState(arrangement, kStateWithoutHistory)) {
+      window_.tabifyDockWidget(window_.findChild<QDockWidget*>("level-set"),
+                               window_.findChild<QDockWidget*>("history"));
+    }
+    arrangement_ = window_.saveState(kDocksVersion);
   }
-  shown_ = true;
+  hide();
   show_or_hide();
 }
 

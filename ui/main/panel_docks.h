@@ -38,6 +38,7 @@ class PanelDocks : public QObject {
   void follow_start();
   void follow_profile();
   void show_or_hide();
+  void hide();
 
   QMainWindow& window_;
   QPointer<engine::CaseProxy> proxy_;
