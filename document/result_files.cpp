@@ -6,12 +6,14 @@
 #include "document/measure_codes.h"
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
+#include "solver/inside_region.h"
 
 namespace tidemark::document {
 namespace {
 
 Result<imaging::Segments> surface_segments(const SessionContents& contents) {
-  imaging::Segments segments = imaging::segments_of(contents.phi->mask(), kSurfaceSegment);
+  imaging::Segments segments =
+      imaging::segments_of(solver::inside_region(*contents.phi), contents.geometry, kSurfaceSegment);
   if (segments.list.front().slices.empty()) {
     return fail(ErrorKind::usage, "nothing is inside the surface");
   }

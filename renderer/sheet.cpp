@@ -5,6 +5,7 @@
 
 #include "renderer/annotation.h"
 #include "renderer/quality_control.h"
+#include "solver/inside_region.h"
 
 namespace tidemark::renderer {
 namespace {
@@ -93,23 +94,18 @@ Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSiz
   return whole;
 }
 
-glm::dvec3 middle_of(const Mask& mask) {
+glm::dvec3 middle_of(const solver::Field& phi) {
   glm::dvec3 sum(0.0);
   std::int64_t found = 0;
-  const Index3 size = mask.geometry.size;
-  for (std::int64_t z = 0; z < size.z; ++z) {
-    for (std::int64_t y = 0; y < size.y; ++y) {
-      for (std::int64_t x = 0; x < size.x; ++x) {
-        if (mask.voxels[static_cast<std::size_t>(mask.geometry.offset({x, y, z}))] == 0) continue;
-        sum += glm::dvec3(x, y, z);
-        ++found;
-      }
-    }
-  }
+  solver::inside_region(phi).for_each_run([&](Index3 voxel, std::int64_t length) {
+    const auto voxels = static_cast<double>(length);
+    sum += voxels * (glm::dvec3(voxel) + glm::dvec3(0.5 * (voxels - 1.0), 0.0, 0.0));
+    found += length;
+  });
   // A slice that was taken, not a mixture of two.
   const glm::dvec3 middle =
-      found == 0 ? 0.5 * glm::dvec3(size - Index3(1)) : sum / static_cast<double>(found);
-  return mask.geometry.to_patient(glm::floor(middle + 0.5));
+      found == 0 ? 0.5 * glm::dvec3(phi.geometry.size - Index3(1)) : sum / static_cast<double>(found);
+  return phi.geometry.to_patient(glm::floor(middle + 0.5));
 }
 
 Box box_around(const solver::Field& phi) {

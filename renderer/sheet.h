@@ -30,7 +30,7 @@ Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, Pictu
 
 // The voxel in the middle of the inside (LPS, mm), and the box around the pages that hold the surface; of the
 // volume when there is no surface.
-glm::dvec3 middle_of(const Mask& mask);
+glm::dvec3 middle_of(const solver::Field& phi);
 Box box_around(const solver::Field& phi);
 
 // The box along the patient's axes around a box of voxels, whose ends are voxel coordinates.

@@ -10,6 +10,7 @@
 #include "gpu/device.h"
 #include "solver/compute/compute_executor.h"
 #include "solver/host/host_executor.h"
+#include "solver/inside_region.h"
 
 namespace tidemark::solver {
 namespace {
@@ -30,7 +31,7 @@ Status compare_after_run(Executor& tried, Executor& trusted, std::int64_t steps)
   if (!found) return pass_on(found);
   const auto expected = trusted.snapshot();
   if (!expected) return pass_on(expected);
-  const double agreement = dice(found->mask(), expected->mask());
+  const double agreement = dice(inside_region(*found), inside_region(*expected));
   if (agreement >= kLeastDice) return {};
   return fail(ErrorKind::capability, "after {} steps the Dice index with the processor's surface is {:.3f}",
               steps, agreement);

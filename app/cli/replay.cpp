@@ -71,7 +71,7 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   if (!recipe) return pass_on(recipe);
   auto study = load_study(arguments.study, console.progress(), recipe->source.policy);
   if (!study) return pass_on(study);
-  const auto volume = std::make_shared<const Volume>(std::move(study->volume));
+  auto volume = std::make_shared<const Volume>(std::move(study->volume));
   for (const std::string& difference : document::differences(*recipe, *volume)) console.warn(difference);
   TIDEMARK_TRY(give_images(*recipe, arguments.images, volume->geometry, console));
   console.say("Recipe     {}; {} edits, {} steps", recipe->start.describe(), recipe->events.size(),
@@ -89,6 +89,7 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   RunResults results = results_of(*recipe, *volume, study->series.uid, std::move(*evolution), arguments);
   results.dicom_files = imaging::dicom_files_of(study->series);
   if (writer.wants_recipe()) results.recipe.source.checksum = document::checksum_of(*volume);
+  volume.reset();
   TIDEMARK_TRY(writer.write(results));
   console.result(to_json(results.figures));
   return {};

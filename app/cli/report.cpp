@@ -87,13 +87,12 @@ std::string describe_pace(const RunFigures& figures) {
 
 }  // namespace
 
-MaskChange change_between(const Mask& before, const Mask& after) {
+MaskChange change_between(const Region& before, const Region& after, const Geometry& grid) {
   MaskChange change;
-  for (std::size_t i = 0; i < before.voxels.size(); ++i) {
-    change.added += before.voxels[i] == 0 && after.voxels[i] != 0 ? 1 : 0;
-    change.removed += before.voxels[i] != 0 && after.voxels[i] == 0 ? 1 : 0;
-  }
-  const double voxel_ml = after.geometry.voxel_volume_ml();
+  const std::int64_t common = common_count(before, after);
+  change.added = after.count() - common;
+  change.removed = before.count() - common;
+  const double voxel_ml = grid.voxel_volume_ml();
   change.added_ml = static_cast<double>(change.added) * voxel_ml;
   change.removed_ml = static_cast<double>(change.removed) * voxel_ml;
   return change;

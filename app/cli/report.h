@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/cli/console.h"
-#include "core/volume.h"
+#include "core/region.h"
 #include "document/coarse_levels.h"
 #include "document/drive.h"
 #include "document/outcome.h"
@@ -24,7 +24,7 @@ struct MaskChange {
   double added_ml = 0.0;
   double removed_ml = 0.0;
 };
-[[nodiscard]] MaskChange change_between(const Mask& before, const Mask& after);
+[[nodiscard]] MaskChange change_between(const Region& before, const Region& after, const Geometry& grid);
 
 // The figures of a run of the solver.
 struct RunFigures {

@@ -10,6 +10,7 @@
 #include "imaging/results/results.h"
 #include "imaging/surface/surface.h"
 #include "renderer/sheet.h"
+#include "solver/inside_region.h"
 #include "solver/speed/tent_speed.h"
 
 namespace tidemark::cli {
@@ -70,7 +71,6 @@ void RunResults::take(document::Evolution evolution) {
   recipe.steps = evolution.advance.steps;
   source = std::move(evolution.source);
   speed = std::move(evolution.speed);
-  mask = evolution.phi.mask();
   phi = std::move(evolution.phi);
 }
 
@@ -114,7 +114,8 @@ Status ResultWriter::stage_text(const std::string& file, const std::string& text
 
 Status ResultWriter::stage_dicom(const std::string& file, imaging::ResultForm form,
                                  const RunResults& results) {
-  imaging::Segments segments = imaging::segments_of(results.mask, "Segment");
+  imaging::Segments segments =
+      imaging::segments_of(solver::inside_region(results.phi), results.phi.geometry, "Segment");
   segments.list.front().phi = std::make_shared<const Volume>(results.phi.to_volume());
   options_.label.apply(segments.list.front());
   return outputs_.stage(file, [&](const std::filesystem::path& name) {
@@ -169,23 +170,16 @@ Status ResultWriter::stage_out(const RunResults& results) {
     }
     const auto write_one = [&](const std::filesystem::path& name) {
       return form == FileForm::mesh ? imaging::write_mesh(*mesh, name)
-                                    : imaging::write_mask_file(results.mask, name);
+                                    : imaging::write_mask_file(results.phi.mask(), name);
     };
     TIDEMARK_TRY(outputs_.stage(file, write_one));
   }
   return {};
 }
 
-Status ResultWriter::stage(const RunResults& results) {
-  TIDEMARK_TRY(stage_out(results));
-  if (!options_.out_phi.empty()) {
-    TIDEMARK_TRY(stage_phi(results));
-  }
+Status ResultWriter::stage(RunResults& results) {
   if (!options_.out_speed.empty()) {
     TIDEMARK_TRY(stage_speed(results));
-  }
-  if (!options_.rtstruct.empty()) {
-    TIDEMARK_TRY(stage_dicom(options_.rtstruct, imaging::ResultForm::structure_set, results));
   }
   if (!options_.picture.empty()) {
     const auto picture = draw(results);
@@ -194,6 +188,15 @@ Status ResultWriter::stage(const RunResults& results) {
       return imaging::write_png_file(picture->width, picture->height, picture->pixels, name);
     };
     TIDEMARK_TRY(outputs_.stage(options_.picture, write_picture));
+  }
+  results.speed = nullptr;
+  results.source = nullptr;
+  TIDEMARK_TRY(stage_out(results));
+  if (!options_.out_phi.empty()) {
+    TIDEMARK_TRY(stage_phi(results));
+  }
+  if (!options_.rtstruct.empty()) {
+    TIDEMARK_TRY(stage_dicom(options_.rtstruct, imaging::ResultForm::structure_set, results));
   }
   if (!options_.stats.empty()) {
     Status staged = stage_text(options_.stats, json_text(to_json(results.figures)));
@@ -216,7 +219,7 @@ Result<renderer::Picture> ResultWriter::draw(const RunResults& results) {
   (*renderer)->set_speed(results.speed);
   constexpr renderer::PictureSize kSize{1200, 800};
   renderer::SheetView view;
-  view.position_mm = renderer::middle_of(results.mask);
+  view.position_mm = renderer::middle_of(results.phi);
   view.window = renderer::window_of(*results.source);
   view.speed = true;
   view.volume.camera.azimuth = 30.0;
@@ -226,7 +229,7 @@ Result<renderer::Picture> ResultWriter::draw(const RunResults& results) {
   return renderer::draw_sheet(**renderer, view, kSize, console_.progress());
 }
 
-Status ResultWriter::write(const RunResults& results) {
+Status ResultWriter::write(RunResults& results) {
   TIDEMARK_TRY(stage(results));
   if (console_.interrupted()) return cancelled_error();
   TIDEMARK_TRY(outputs_.commit());

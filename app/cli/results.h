@@ -32,7 +32,6 @@ struct RunResults {
   std::shared_ptr<const imaging::StudyArchive> archive;  // in which they lie, if they do
   std::shared_ptr<const solver::SpeedFunction> speed;    // at the end; null: the tent
   solver::Field phi;
-  Mask mask;
   RunFigures figures;
   document::Recipe recipe;
 
@@ -49,11 +48,12 @@ class ResultWriter {
   [[nodiscard]] Status spare(const std::string& input) const { return outputs_.spare(input); }
   [[nodiscard]] bool wants_recipe() const;
 
-  // Writes all files, or none, and prints their names.
-  Status write(const RunResults& results);
+  // Writes all files, or none, and prints their names. The results' source is given up on the way: files of
+  // masks and surfaces are then written in its memory.
+  Status write(RunResults& results);
 
  private:
-  Status stage(const RunResults& results);
+  Status stage(RunResults& results);
   Status stage_out(const RunResults& results);
   Status stage_dicom(const std::string& file, imaging::ResultForm form, const RunResults& results);
   Status stage_phi(const RunResults& results);

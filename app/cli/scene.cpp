@@ -96,7 +96,7 @@ void place(Scene& scene, const RenderOptions& options, const solver::Field& phi)
     const double aspect = volume_aspect(options, views.size);
     views.volume.camera = views.volume.camera.on(renderer::box_around(phi), source.geometry, aspect);
   }
-  views.slice.position_mm = renderer::middle_of(phi.mask());
+  views.slice.position_mm = renderer::middle_of(phi);
   if (options.at) {
     views.slice.position_mm =
         source.geometry.to_patient({(*options.at)[0], (*options.at)[1], (*options.at)[2]});

@@ -5,6 +5,7 @@
 #include "app/cli/run_inputs.h"
 #include "app/cli/segment_options.h"
 #include "solver/distance_transform.h"
+#include "solver/inside_region.h"
 #include "solver/surface_agreement.h"
 
 namespace tidemark::cli {
@@ -82,7 +83,8 @@ Status Segmentation::evolve() {
   recipe.smoothed_mm = options_.smooth_mm.value_or(0.0);  // by load(): evolve() smooths nothing
   figures.threads = threads_of(options_.solver, figures.executor);
   if (const auto* mask = std::get_if<document::MaskStart>(&recipe.start.from)) {
-    figures.change = change_between(*mask->mask, results_.mask);
+    figures.change =
+        change_between(Region(*mask->mask), solver::inside_region(results_.phi), results_.phi.geometry);
   }
   return compare_with_truth();
 }
@@ -90,7 +92,7 @@ Status Segmentation::evolve() {
 Status Segmentation::compare_with_truth() {
   if (!truth_) return {};
   RunFigures& figures = results_.figures;
-  figures.dice = dice(results_.mask, *truth_);
+  figures.dice = dice(solver::inside_region(results_.phi), Region(*truth_));
   const solver::Field truth = solver::distance_transform(*truth_, kTruthBand);
   auto agreement = solver::agreement(results_.phi, truth, console_.progress());
   if (!agreement) return pass_on(agreement);

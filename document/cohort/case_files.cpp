@@ -45,7 +45,7 @@ class CaseFiles {
         folder_(folder),
         status_(status),
         progress_(progress),
-        mask_(result.phi.mask()) {}
+        inside_(solver::inside_region(result.phi)) {}
 
   Status write();
 
@@ -62,7 +62,7 @@ class CaseFiles {
   const fs::path& folder_;
   CaseStatus& status_;
   const Progress& progress_;
-  const Mask mask_;
+  const Region inside_;
 };
 
 Status CaseFiles::measure() {
@@ -77,16 +77,17 @@ Status CaseFiles::measure() {
   // The sums want stored values: those of a smoothed volume are its own.
   std::visit(
       [&](const auto& voxels) {
-        for (std::size_t i = 0; i < voxels.size(); ++i) {
-          if (mask_.voxels[i] != 0) sums.add(static_cast<double>(voxels[i]));
-        }
+        inside_.for_each_run([&](Index3 voxel, std::int64_t length) {
+          const auto first = voxels.begin() + result_.source.geometry.offset(voxel);
+          std::for_each(first, first + length, [&](auto value) { sums.add(static_cast<double>(value)); });
+        });
       },
       result_.source.voxels);
   if (sums.voxels > 0) figures.mean_inside = sums.result(result_.source).mean;
   if (row_.truth.empty()) return {};
   const auto truth = document::load_truth(row_.truth, row_.truth_label, result_.source.geometry, progress_);
   if (!truth) return pass_on(truth);
-  figures.dice = dice(mask_, *truth);
+  figures.dice = dice(inside_, Region(*truth));
   return {};
 }
 
@@ -114,7 +115,7 @@ Status CaseFiles::write_recipe() {
 }
 
 Status CaseFiles::write_dicom(CaseOutput output, const fs::path& file) {
-  imaging::Segments segments = imaging::segments_of(mask_, "Segment");
+  imaging::Segments segments = imaging::segments_of(inside_, result_.phi.geometry, "Segment");
   segments.list.front().phi = std::make_shared<const Volume>(result_.phi.to_volume());
   Status written = output == CaseOutput::segmentation
                        ? imaging::write_segmentation(segments, result_.dicom_files, file, progress_)
@@ -154,7 +155,7 @@ Status CaseFiles::write() {
   TIDEMARK_TRY(measure());
   if (progress_.cancelled()) return cancelled_error();
   status_.files.emplace_back("mask.nii.gz");
-  TIDEMARK_TRY(imaging::write_mask_file(mask_, folder_ / "mask.nii.gz"));
+  TIDEMARK_TRY(imaging::write_mask_file(result_.phi.mask(), folder_ / "mask.nii.gz"));
   TIDEMARK_TRY(write_outputs());
   TIDEMARK_TRY(write_recipe());
   if (!plan_.pictures) return {};

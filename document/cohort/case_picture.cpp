@@ -43,7 +43,7 @@ Result<Picture> case_picture(const Volume& source, const solver::Field& phi, std
   whole.pixels.resize(static_cast<std::size_t>(4 * whole.width * whole.height));
   std::int64_t index = 0;
   renderer::SliceView slice;
-  slice.position_mm = renderer::middle_of(phi.mask());
+  slice.position_mm = renderer::middle_of(phi);
   slice.window = renderer::window_of(source);
   slice.line_pixels = 1.5;
   for (const auto& orientation : {renderer::kAxial, renderer::kCoronal, renderer::kSagittal}) {

@@ -56,13 +56,20 @@ std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const PagedBytes& vo
   return slices;
 }
 
-Segments segments_of(const Mask& mask, const std::string& name) {
-  Segments segments{mask.geometry, {}, {}};
+Segments segments_of(const Region& region, const Geometry& grid, const std::string& name) {
   Segment segment;
   segment.name = name;
-  segment.slices = slices_of(mask.geometry, mask.voxels);
-  segments.list.push_back(std::move(segment));
-  return segments;
+  const auto area = static_cast<std::size_t>(grid.size.x * grid.size.y);
+  region.for_each_run([&](Index3 voxel, std::int64_t length) {
+    std::vector<std::uint8_t>& slice = segment.slices[voxel.z];
+    slice.resize(area);
+    std::fill_n(slice.begin() + voxel.y * grid.size.x + voxel.x, length, std::uint8_t{1});
+  });
+  return {grid, {std::move(segment)}, {}};
+}
+
+Segments segments_of(const Mask& mask, const std::string& name) {
+  return segments_of(Region(mask), mask.geometry, name);
 }
 
 Result<Segments> segments_of_numbers(const Geometry& geometry, std::span<const float> values,

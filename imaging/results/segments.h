@@ -43,7 +43,8 @@ struct Segments {
 [[nodiscard]] std::map<std::int64_t, std::vector<std::uint8_t>> slices_of(const PagedBytes& voxels,
                                                                           std::uint8_t id);
 
-// One segment of that mask.
+// One segment of those voxels.
+[[nodiscard]] Segments segments_of(const Region& region, const Geometry& grid, const std::string& name);
 [[nodiscard]] Segments segments_of(const Mask& mask, const std::string& name);
 
 // A segment for each number from 1 to 255 that a label map holds, called "Segment 3". `values` are in voxel

@@ -41,7 +41,7 @@ class RegionOfInterestTest : public QObject {
     const Mask liver = closed(phantom->truth, 8.0);
     scene.phi = solver::distance_transform(liver, solver::default_band(liver.geometry));
     scene.source = std::make_shared<const Volume>(std::move(phantom->volume));
-    scene.middle = renderer::middle_of(liver);
+    scene.middle = renderer::middle_of(scene.phi);
     Painter draw(scene);
 
     renderer::VolumeView surface;

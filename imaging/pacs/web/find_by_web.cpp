@@ -34,7 +34,7 @@ class JsonAnswer final : public FoundAnswer {
       if (i > 0) all += '\\';
       all += value_of(values.at(i));
     }
-    return clean_text(std::move(all));
+    return clean_text(all);
   }
 
  private:
