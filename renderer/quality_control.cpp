@@ -17,19 +17,17 @@ std::optional<Pass> QualityControl::next(PictureSize full, int rounds) const {
   }
   // The first picture of a study tells how long its pixels take; it is small to be safe.
   int divisor = 1;
+  const auto size = [&] {
+    return PictureSize{std::max<std::int64_t>(1, full.width / divisor),
+                       std::max<std::int64_t>(1, full.height / divisor)};
+  };
   const auto too_slow = [&] {
     const auto pixel_seconds = expected_pixel_seconds(divisor);
     const double budget = divisor == 2 ? kForHalf * kInteractive : kInteractive;
-    return !pixel_seconds || *pixel_seconds * static_cast<double>(full.width / divisor) *
-                                     static_cast<double>(full.height / divisor) >
-                                 budget;
+    return !pixel_seconds || *pixel_seconds * static_cast<double>(size().width * size().height) > budget;
   };
   while (divisor < kSmallest && too_slow()) ++divisor;
-  return Pass{
-      {std::max<std::int64_t>(1, full.width / divisor), std::max<std::int64_t>(1, full.height / divisor)},
-      kMovingQuality,
-      true,
-      divisor};
+  return Pass{size(), kMovingQuality, true, divisor};
 }
 
 // By the next coarser pictures that are known. Where rays are nearer to one another they find more of what

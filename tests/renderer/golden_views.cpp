@@ -170,7 +170,7 @@ Patient::Patient(const char* kind, renderer::RendererKind renderer, int threads)
   auto phantom = imaging::make_phantom(kind);
   if (!phantom) qFatal("%s", phantom.error().message.c_str());
   scene.phi = solver::distance_transform(phantom->truth, solver::default_band(phantom->truth.geometry));
-  scene.middle = renderer::middle_of(phantom->truth);
+  scene.middle = renderer::middle_of(scene.phi);
   scene.source = std::make_shared<const Volume>(std::move(phantom->volume));
   parameters.target = phantom->target;
   parameters.range = phantom->range;
