@@ -4,6 +4,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/large_pages.h"
 #include "imaging/guard/text_voxels.h"
 
 namespace tidemark::imaging::files {
@@ -33,7 +34,7 @@ Status convert(const PixelLayout& layout, std::int64_t voxel, double number, T& 
 
 template <class T>
 Result<std::vector<T>> read_stored_as(const PixelLayout& layout) {
-  std::vector<T> voxels(static_cast<std::size_t>(layout.voxels));
+  auto voxels = make_large_vector<T>(static_cast<std::size_t>(layout.voxels));
   if (layout.coding == Coding::text) {
     TIDEMARK_TRY(read_text(layout, [&](std::int64_t voxel, double number) {
       return convert(layout, voxel, number, voxels[static_cast<std::size_t>(voxel)]);
@@ -47,7 +48,7 @@ Result<std::vector<T>> read_stored_as(const PixelLayout& layout) {
 
 template <class To, class From>
 std::vector<To> scaled(const std::vector<From>& stored, double slope, double intercept) {
-  std::vector<To> result(stored.size());
+  auto result = make_large_vector<To>(stored.size());
   std::transform(stored.begin(), stored.end(), result.begin(),
                  [&](From value) { return static_cast<To>(slope * static_cast<double>(value) + intercept); });
   return result;
@@ -66,7 +67,7 @@ Result<Volume::Voxels> read_as(const PixelLayout& layout) {
   if constexpr (std::is_same_v<Stored, To>) {
     return std::move(*stored);
   } else {
-    std::vector<To> voxels(stored->size());
+    auto voxels = make_large_vector<To>(stored->size());
     std::transform(stored->begin(), stored->end(), voxels.begin(),
                    [](Stored value) { return static_cast<To>(value); });
     return voxels;
