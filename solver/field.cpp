@@ -3,19 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/out_of_memory.h"
+#include "core/large_pages.h"
 #include "core/paging/page_rows.h"
 
 namespace tidemark::solver {
-namespace {
-
-template <class Value>
-std::vector<Value> zeros(std::int64_t count) {
-  return asking_for(count * static_cast<std::int64_t>(sizeof(Value)),
-                    [&] { return std::vector<Value>(static_cast<std::size_t>(count)); });
-}
-
-}  // namespace
 
 bool Field::has_inside() const {
   bool found = false;
@@ -43,7 +34,7 @@ Status Field::check_fits(const Geometry& grid, double wanted_band) const {
 }
 
 std::vector<float> Field::dense() const {
-  std::vector<float> values = zeros<float>(geometry.voxel_count());
+  auto values = make_large_vector<float>(static_cast<std::size_t>(geometry.voxel_count()));
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     const float* const stored = pages.values(page);
     for_each_row(geometry, layout, page, [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
@@ -67,7 +58,7 @@ Volume Field::to_volume() const {
 }
 
 Mask Field::mask() const {
-  Mask result{geometry, zeros<std::uint8_t>(geometry.voxel_count())};
+  Mask result{geometry, make_large_vector<std::uint8_t>(static_cast<std::size_t>(geometry.voxel_count()))};
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     if (pages.kind(page) == Kind::outside) continue;
     const float* const stored = pages.values(page);

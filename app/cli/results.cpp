@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/json/json_text.h"
+#include "core/large_pages.h"
 #include "document/segment_meshes.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
@@ -138,11 +139,20 @@ Status ResultWriter::stage_speed(const RunResults& results) {
   std::shared_ptr<const solver::SpeedFunction> speed = results.speed;
   if (speed == nullptr)
     speed = std::make_shared<solver::TentSpeed>(results.source, results.figures.parameters);
+  const Geometry& grid = results.source->geometry;
+  auto values = make_large_vector<float>(static_cast<std::size_t>(grid.voxel_count()));
+  auto next = values.begin();
+  constexpr std::int64_t kSlices = 16;  // at a time, so that doubles are few
+  std::vector<double> some(static_cast<std::size_t>(kSlices * grid.size.x * grid.size.y));
+  for (std::int64_t k = 0; k < grid.size.z; k += kSlices) {
+    if (console_.interrupted()) return cancelled_error();
+    const solver::VoxelBox box{{0, 0, k}, {grid.size.x, grid.size.y, std::min(kSlices, grid.size.z - k)}};
+    speed->evaluate(box, some.data());
+    next = std::copy_n(some.begin(), box.voxels(), next);
+  }
   Volume volume;
-  volume.geometry = results.source->geometry;
-  std::vector<double> values(static_cast<std::size_t>(volume.geometry.voxel_count()));
-  speed->evaluate({Index3(0), volume.geometry.size}, values.data());
-  volume.voxels = std::vector<float>(values.begin(), values.end());
+  volume.geometry = grid;
+  volume.voxels = std::move(values);
   return outputs_.stage(options_.out_speed, [&](const std::filesystem::path& name) {
     return imaging::write_volume_file(volume, name);
   });
