@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/large_pages.h"
 #include "core/typed_volume.h"
 
 namespace tidemark {
@@ -54,7 +55,7 @@ float Volume::value(std::int64_t offset) const {
 
 std::vector<float> Volume::values() const {
   return with_type(*this, [](const auto& typed) {
-    std::vector<float> result(typed.stored.size());
+    auto result = make_large_vector<float>(typed.stored.size());
     std::transform(typed.stored.begin(), typed.stored.end(), result.begin(),
                    [&](auto voxel) { return typed.rescaled(voxel); });
     return result;

@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 #include <new>
 
+#include "core/large_pages.h"
 #include "core/thread_pool.h"
 #include "imaging/onto_grid.h"
 
@@ -127,7 +128,7 @@ Result<Resampled> resample(const Volume& image, const glm::dmat4& transform, con
   result.volume.changes = image.changes;
   try {
     const float background = outside ? *outside : image.range().first;
-    std::vector<float> values(static_cast<std::size_t>(grid.voxel_count()), background);
+    auto values = make_large_vector(static_cast<std::size_t>(grid.voxel_count()), background);
     const auto covered = std::visit(
         [&](const auto& voxels) { return fill(image, voxels, *map, grid, values, progress); }, image.voxels);
     if (!covered) return pass_on(covered);
