@@ -123,7 +123,7 @@ void Region::for_each_run(const Visit& visit) const {
             visit(Index3(first_.x + begin, j, k), base + at - begin);
             begin = -1;
           }
-          const std::uint64_t beyond = at == kBits - 1 ? 0 : ~std::uint64_t{0} << (at + 1);
+          const std::uint64_t beyond = ~(left ^ (left - 1));
           left = (begin < 0 ? words[w] : ~words[w]) & beyond;
         }
       }
