@@ -12,8 +12,8 @@ namespace tidemark {
 // Asks the kernel to back the memory by large pages (2 MiB) where it can. Nothing but speed depends on it.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-// So many times the value. A vector of a CT touches fifty thousand pages of the usual size for the first time. The
-// processor enters the kernel for each, which takes longer than filling them.
+// So many times the value. A vector of a CT touches fifty thousand pages of the usual size for the first
+// time. The processor enters the kernel for each, which takes longer than filling them.
 template <class Value>
 [[nodiscard]] std::vector<Value> make_large_vector(std::size_t count, Value value = {}) {
   std::vector<Value> values;
