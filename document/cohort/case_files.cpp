@@ -25,12 +25,11 @@ int picture_side(const Geometry& grid) {
   return static_cast<int>(std::clamp(std::max({grid.size.x, grid.size.y, grid.size.z}), kLeast, kMost));
 }
 
-bool touches_border(const solver::Field& phi) {
-  const VoxelRange inside = solver::inside_region(phi).bounds();
+bool touches_border(const VoxelRange& inside, Index3 grid_size) {
   if (inside.empty()) return false;
   for (int axis = 0; axis < 3; ++axis) {
     // An axis of few voxels has nothing but a border.
-    if (phi.geometry.size[axis] > 2 && inside.touches_end(axis, phi.geometry.size)) return true;
+    if (grid_size[axis] > 2 && inside.touches_end(axis, grid_size)) return true;
   }
   return false;
 }
@@ -72,7 +71,8 @@ Status CaseFiles::measure() {
   figures.surface_mm2 = result_.surface.surface_mm2;
   figures.voxels_inside = result_.surface.voxels_inside;
   figures.unit = result_.source.unit;
-  if (touches_border(result_.phi)) status_.warnings.push_back(CaseWarning::touches_border);
+  if (touches_border(inside_.bounds(), result_.phi.geometry.size))
+    status_.warnings.push_back(CaseWarning::touches_border);
   document::ValueSums sums;
   // The sums want stored values: those of a smoothed volume are its own.
   std::visit(
