@@ -11,6 +11,7 @@
 #include "engine/label_finisher.h"
 #include "engine/lock_step.h"
 #include "engine/region_meter.h"
+#include "engine/stroke_motion.h"
 #include "engine/surface_maps.h"
 #include "engine/wanted_map.h"
 
@@ -26,6 +27,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
       sweep_(std::make_unique<CaseSweep>(*this)),
       label_finisher_(std::make_unique<LabelFinisher>(*this)),
       region_meter_(std::make_unique<RegionMeter>(*this)),
+      stroke_motion_(std::make_unique<StrokeMotion>(*this)),
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;

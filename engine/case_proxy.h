@@ -37,6 +37,7 @@ class CaseSweep;
 class LabelFinisher;
 class LockStep;
 class RegionMeter;
+class StrokeMotion;
 class WantedMap;
 class WeakReceiver;
 struct RecordedStep;
@@ -147,6 +148,7 @@ class CaseProxy : public QObject {
   void brush_label(document::LabelRegion stroke, document::Labels::Stroke what, document::Take take);
   [[nodiscard]] LabelFinisher& label_finisher() { return *label_finisher_; }
   [[nodiscard]] RegionMeter& region_meter() { return *region_meter_; }
+  [[nodiscard]] StrokeMotion& stroke_motion() { return *stroke_motion_; }
   // With `within_mm` the label is refined: the surface stays that near to it.
   void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
@@ -219,6 +221,7 @@ class CaseProxy : public QObject {
   std::unique_ptr<CaseSweep> sweep_;
   std::unique_ptr<LabelFinisher> label_finisher_;
   std::unique_ptr<RegionMeter> region_meter_;
+  std::unique_ptr<StrokeMotion> stroke_motion_;
   CaseState state_;
   std::unique_ptr<CaseBalance> balance_;
   std::unique_ptr<WantedMap> truth_error_;

@@ -86,6 +86,7 @@ struct DisplaySettings {
   Tool last_tool = Tool::crosshair;  // Space goes back to it
   double brush_mm = 5.0;             // radius
   double stroke_voxels = 2.5;        // radius of a stroke, in voxels of the slice
+  std::int64_t stroke_steps = 0;     // by which the surface moves after a stroke, and pauses; 0: it does not
   bool wall_behind_eraser = false;   // what is erased does not grow back
   int chosen_primitive = 0;          // of transfer.source: probing sets it
   std::vector<Measurement> measurements;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kFarthest = 1e6;  // mm: nothing in a patient is as far away
 constexpr std::size_t kMostImages = 64;
+constexpr std::int64_t kMostStrokeSteps = 1'000'000;
 constexpr JsonLimits kLimits{.bytes = std::size_t{16} << 20, .values = std::size_t{1} << 20};
 
 Json json_of(glm::dvec3 v) {
@@ -214,6 +215,7 @@ std::string to_json(const DisplaySettings& s) {
               {"tool", static_cast<int>(s.tool)},
               {"brush_mm", s.brush_mm},
               {"stroke_voxels", s.stroke_voxels},
+              {"stroke_steps", s.stroke_steps},
               {"wall_behind_eraser", s.wall_behind_eraser},
               {"chosen_primitive", s.chosen_primitive},
               {"images", images_json(s)},
@@ -230,6 +232,7 @@ Result<DisplaySettings> display_settings(const std::string& text, DisplaySetting
   read_enum(root, "tool", kTools, s.tool);
   read(root, "brush_mm", 0.01, 1000.0, s.brush_mm);
   read(root, "stroke_voxels", 0.5, 100.0, s.stroke_voxels);
+  if (root.has("stroke_steps")) s.stroke_steps = root.at("stroke_steps").integer(0, kMostStrokeSteps);
   read(root, "wall_behind_eraser", s.wall_behind_eraser);
   if (root.has("chosen_primitive"))
     s.chosen_primitive = static_cast<int>(root.at("chosen_primitive").integer(0, 1000));

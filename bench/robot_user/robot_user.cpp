@@ -28,6 +28,11 @@ namespace {
 // must not speak against the next one.
 constexpr double kAlphaOfMany = 0.9;
 constexpr double kEdgesOfMany = 200.0;
+// Until so many strokes, they are looked for anew after each round; then those that were found are corrected.
+constexpr int kStrokesToFindMany = 9;
+
+// Of one tent: to its rest.
+constexpr std::int64_t kStepsOfTent = 2000;
 
 struct Settings {
   std::string folder;
@@ -35,7 +40,7 @@ struct Settings {
   int strokes = 20;
   bool still = false;
   double alpha = 0.7;
-  std::int64_t steps = 400;
+  std::int64_t steps = 60;  // a leak is seen while it is small
   solver::ExamplesOptions options;
 };
 
@@ -88,7 +93,7 @@ class StillSurface final : public Surface {
 };
 
 // The level set of the processor. It goes on from where it is; strokes inside that it does not hold add
-// spheres. Of objects in many places it begins anew each time, wherever it would grow.
+// spheres. Of objects in many places it first begins anew each time, wherever it would grow.
 class LevelSetSurface final : public Surface {
  public:
   static Result<std::unique_ptr<Surface>> make(const RobotCase& robot_case, const Settings& settings) {
@@ -106,7 +111,7 @@ class LevelSetSurface final : public Surface {
   Result<Mask> follow(std::shared_ptr<const solver::ExamplesSpeed> function, const Robot& robot) override {
     const Geometry& grid = function->features().geometry();
     TIDEMARK_TRY(executor_->set_speed(std::make_shared<solver::CachedSpeed>(function, grid.size)));
-    if (many_) {
+    if (many_ && robot.count() <= kStrokesToFindMany) {
       auto region = solver::growing_region(*function, grid, {});
       if (!region) return pass_on(region);
       const Inside inside = inside_of(std::make_shared<const BitMask>(std::move(*region)));
@@ -148,7 +153,7 @@ Result<Outcome> segment(const RobotCase& robot_case, const Settings& settings) {
   robot.begin();
   Outcome outcome;
   const auto tent = best_tent(robot_case.images.front(), robot_case.truth, robot.inside().front(),
-                              settings.alpha, 5 * settings.steps);
+                              settings.alpha, kStepsOfTent);
   if (!tent) return pass_on(tent);
   outcome.tent = *tent;
   // Kept until the next one is there, so that both share their images' pyramids.

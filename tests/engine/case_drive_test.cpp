@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/speed_sampler.h"
+#include "engine/stroke_motion.h"
 #include "solver/speed/speed_registry.h"
 #include "tests/engine/ball_case.h"
 #include "tests/support/test_program.h"
@@ -170,6 +171,74 @@ class CaseDriveTest : public QObject {
     ball_->wait_until_idle();
     QVERIFY(!seen_waiting);
     QCOMPARE(proxy_->state().parameters.target, parameters.target);
+  }
+
+  void a_stroke_moves_the_surface_by_so_many_steps() {
+    const glm::dvec3 middle = ball_->middle();
+    const Geometry& geometry = proxy_->volume().geometry;
+    const auto voxel_at = [&](glm::dvec3 place_mm) {
+      return Index3(glm::round(geometry.to_voxel(place_mm)));
+    };
+    const auto stroke = [&](const document::Drive& drive, const std::vector<std::int64_t>& voxels) {
+      proxy_->stroke_motion().take(drive, voxels, 20);
+    };
+    // One kind alone teaches nothing, and the surface does not begin.
+    document::Drive drive = learning(10.0);
+    const auto both = drive.strokes;
+    auto one_kind = std::make_shared<solver::Strokes>();
+    one_kind->inside = {geometry.offset(voxel_at(middle))};
+    drive.strokes = one_kind;
+    drive.setting = {};
+    stroke(drive, one_kind->inside);
+    ball_->wait_until_idle();
+    QVERIFY(!proxy_->state().begun);
+
+    // The first stroke of the other kind begins it, by what it teaches.
+    drive = learning(10.0);
+    stroke(drive, both->outside);
+    QTRY_VERIFY(proxy_->state().step == 20 && !proxy_->state().playing);
+    QVERIFY(proxy_->state().speed);
+    QVERIFY(proxy_->state().phi->at(voxel_at(middle)) > 0.0F);
+
+    // It pauses until the next function is there: all of the steps are that one's.
+    const auto former = proxy_->state().speed;
+    bool moved_by_former = false;
+    const auto seen = connect(proxy_, &engine::CaseProxy::state_changed, this, [&] {
+      moved_by_former |= proxy_->state().speed == former && proxy_->state().step > 20;
+    });
+    const glm::dvec3 beside = middle + glm::dvec3(0.0, 2.0 * kBallRadius, 0.0);
+    QVERIFY(proxy_->state().phi->at(voxel_at(beside)) <= 0.0F);
+    auto more = std::make_shared<solver::Strokes>(*both);
+    const std::int64_t far = geometry.offset(voxel_at(beside));
+    std::erase(more->outside, far);
+    if (!std::ranges::binary_search(more->inside, far))
+      more->inside.insert(std::ranges::lower_bound(more->inside, far), far);
+    drive.strokes = more;
+    const std::size_t entries = proxy_->state().history->size();
+    stroke(drive, {far});
+    QTRY_VERIFY(proxy_->state().drive.strokes == drive.strokes);
+    ball_->wait_until_idle();
+    QVERIFY(!moved_by_former);
+    QTRY_VERIFY(proxy_->state().step > 20 && !proxy_->state().playing);
+    ball_->wait_until_idle();
+    disconnect(seen);
+    QVERIFY(proxy_->state().step <= 40);
+    // The stroke with what it adds is one entry, the run another.
+    QCOMPARE(proxy_->state().history->size(), entries + 2);
+
+    // Undone before it is learned, it moves nothing.
+    proxy_->undo();
+    ball_->wait_until_idle();
+    const std::int64_t step = proxy_->state().step;
+    drive.setting.terms.front().values.at("trees") = 400.0;
+    drive.strokes = std::make_shared<solver::Strokes>(*both);
+    stroke(drive, {});
+    proxy_->undo();
+    ball_->wait_until_idle();
+    QTest::qWait(300);
+    QCOMPARE(proxy_->state().step, step);
+    QVERIFY(!proxy_->state().playing);
+    QVERIFY(ball_->failures.isEmpty());
   }
 
   void samples_come_from_another_thread() {

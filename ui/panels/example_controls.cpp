@@ -1,10 +1,12 @@
 #include "ui/panels/example_controls.h"
 
+#include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "engine/stroke_painting.h"
 #include "solver/speed/speed_registry.h"
@@ -21,6 +23,7 @@ namespace {
 
 constexpr double kSmallestVoxels = 0.5;  // voxels
 constexpr double kLargestVoxels = 50.0;
+constexpr int kStrokeSteps[] = {0, 30, 60, 120, 250};
 constexpr std::size_t kMostToCount = 20000;  // strokes from files can be whole organs
 
 QString text_of(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {
@@ -49,6 +52,18 @@ ExampleControls::ExampleControls(QWidget* parent) : CaseWidget(parent), content_
   radius_->set_unit(tr("voxels"));
   connect(radius_, &SliderNumber::edited, this, [this](double value) {
     change_display([=](engine::DisplaySettings& settings) { settings.stroke_voxels = value; });
+  });
+  motion_ =
+      form.choice(tr("After a stroke"),
+                  tr("With a number of steps, a stroke moves the surface by so many, and pauses it: a leak "
+                     "is seen while it is small. A stroke inside joins the surface."));
+  for (const int steps : kStrokeSteps) {
+    motion_->addItem(steps == 0 ? tr("as it plays") : tr("%n steps, then pause", nullptr, steps),
+                     QVariant::fromValue<qint64>(steps));
+  }
+  connect(motion_, &QComboBox::activated, this, [this] {
+    const qint64 steps = motion_->currentData().toLongLong();
+    change_display([=](engine::DisplaySettings& settings) { settings.stroke_steps = steps; });
   });
   auto* row = new QHBoxLayout;
   row->setSpacing(kSpace);
@@ -95,6 +110,8 @@ void ExampleControls::refresh() {
   content_->setVisible(learns || drive.strokes || settings.tool == engine::Tool::examples);
   tool_->setChecked(settings.tool == engine::Tool::examples);
   radius_->set_value(settings.stroke_voxels);
+  motion_->setCurrentIndex(
+      std::max(0, motion_->findData(QVariant::fromValue<qint64>(settings.stroke_steps))));
   const QString missing = missing_examples(drive.strokes.get());
   missing_->setText(missing);
   missing_->setVisible(!missing.isEmpty());

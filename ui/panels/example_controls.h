@@ -3,6 +3,7 @@
 
 #include "ui/panels/case_widget.h"
 
+class QComboBox;
 class QLabel;
 class QPushButton;
 class QToolButton;
@@ -31,6 +32,7 @@ class ExampleControls : public CaseWidget {
   QLabel* outside_;
   QToolButton* tool_;
   SliderNumber* radius_;
+  QComboBox* motion_;
   QPushButton* clear_;
   std::shared_ptr<const solver::Strokes> counted_;
 };

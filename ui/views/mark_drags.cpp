@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "engine/stroke_motion.h"
 #include "solver/speed/speed_registry.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/tr.h"
@@ -67,7 +68,12 @@ void ExampleDrag::move(const Pointer& pointer) {
 }
 
 void ExampleDrag::release() {
-  proxy().set_drive(taught(proxy().drive(), strokes_), engine::CaseProxy::new_gesture());
+  const document::Drive drive = taught(proxy().drive(), strokes_);
+  if (const std::int64_t steps = display().settings().stroke_steps; steps > 0) {
+    proxy().stroke_motion().take(drive, voxels_, steps);
+  } else {
+    proxy().set_drive(drive, engine::CaseProxy::new_gesture());
+  }
 }
 
 QString ExampleDrag::text() const {

@@ -27,6 +27,7 @@ class ExamplesStoryTest : public QObject {
   void strokes_go_into_the_case_under_the_mouse();
   void walls_and_anchors_are_painted_and_cleared();
   void what_was_erased_does_not_grow_back();
+  void each_stroke_moves_the_surface_and_pauses_it();
   void five_strokes_and_play_find_a_texture();
 
  private:
@@ -287,6 +288,52 @@ void ExamplesStoryTest::what_was_erased_does_not_grow_back() {
   desktop.wait_until_idle();
   QVERIFY(!drive(desktop).constraints);
   QVERIFY(encloses());
+}
+
+void ExamplesStoryTest::each_stroke_moves_the_surface_and_pauses_it() {
+  Desktop desktop(story_executor(), {1382, 858});
+  QVERIFY(desktop.open(file_));
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  const glm::dvec3 middle = desktop.proxy().volume().geometry.to_patient(centre());
+  desktop.proxy().display().change([&](engine::DisplaySettings& s) { s.cursor_mm = middle; });
+  desktop.window().panels().show("level-set");
+  desktop.press(Qt::Key_M);
+  desktop.wait_until_idle();
+  auto* panel = desktop.window().findChild<ui::ExampleControls*>();
+  QVERIFY(panel && panel->isVisible());
+  auto* motion = panel->findChild<QComboBox*>();
+  QVERIFY(motion && motion->isVisible());
+  QCOMPARE(motion->currentIndex(), 0);
+  motion->setFocus();
+  QTest::keyClick(motion, Qt::Key_Down);
+  QTest::keyClick(motion, Qt::Key_Down);
+  QCOMPARE(desktop.proxy().display().settings().stroke_steps, std::int64_t{60});
+
+  // No Play is pressed: the fifth stroke is the first one that has something to teach.
+  const auto stroke = [&](glm::dvec3 from, glm::dvec3 to, Qt::MouseButton button) {
+    Desktop::drag(*axial, {middle + from, middle + 0.5 * (from + to), middle + to}, button);
+  };
+  const auto rests_after = [&](std::int64_t step) {
+    return Desktop::wait_for([&] { return desktop.state().step == step && !desktop.state().playing; },
+                             120000);
+  };
+  stroke({-6.0, -4.0, 0.0}, {6.0, -4.0, 0.0}, Qt::LeftButton);
+  desktop.wait_until_idle();
+  QVERIFY(!desktop.state().begun);
+  stroke({-28.0, -20.0, 0.0}, {28.0, -26.0, 0.0}, Qt::RightButton);
+  QVERIFY(rests_after(60));
+  stroke({-27.0, 10.0, 0.0}, {-22.0, 28.0, 0.0}, Qt::RightButton);
+  QVERIFY(rests_after(120));
+  // One stroke is two entries: itself, and the run.
+  desktop.wait_until_idle();
+  desktop.screenshot("examples-0-each-stroke");
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().step, std::int64_t{60});
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().step, std::int64_t{60});
+  QVERIFY(!desktop.state().playing);
 }
 
 void ExamplesStoryTest::five_strokes_and_play_find_a_texture() {
