@@ -1,5 +1,5 @@
-// The motion of the surface after a stroke of examples: by so many steps, then a pause. A leak is seen while it
-// is small, and the next stroke can meet it.
+// The motion of the surface after a stroke of examples: by so many steps, then a pause. A leak is seen while
+// it is small, and the next stroke can meet it.
 #pragma once
 
 #include <QObject>
