@@ -11,7 +11,6 @@
 #include "engine/label_finisher.h"
 #include "engine/lock_step.h"
 #include "engine/region_meter.h"
-#include "engine/stroke_motion.h"
 #include "engine/surface_maps.h"
 #include "engine/wanted_map.h"
 
@@ -27,7 +26,6 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
       sweep_(std::make_unique<CaseSweep>(*this)),
       label_finisher_(std::make_unique<LabelFinisher>(*this)),
       region_meter_(std::make_unique<RegionMeter>(*this)),
-      stroke_motion_(std::make_unique<StrokeMotion>(*this)),
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;
@@ -216,12 +214,28 @@ void CaseProxy::set_parameters(const solver::Parameters& parameters, std::uint64
   emit state_changed();  // every view and panel shows the wish at once
 }
 
-void CaseProxy::set_drive(const document::Drive& wanted, std::uint64_t gesture) {
-  document::Drive drive = wanted;
+// Gives it the images that are used. Whether it is another one than before.
+bool CaseProxy::want(document::Drive& drive) {
   drive.images.clear();
   if (document::uses_images(drive.setting)) drive.images = used_images(display_.settings().images);
-  if (drive == wanted_drive_) return;
+  if (drive == wanted_drive_) return false;
   wanted_drive_ = drive;
+  return true;
+}
+
+void CaseProxy::take_stroke(const document::Drive& wanted, const std::vector<std::int64_t>& voxels,
+                            std::int64_t steps) {
+  document::Drive drive = wanted;
+  if (!want(drive)) return;
+  post([drive, voxels, steps, gesture = new_gesture()](CaseRunner& runner, const Progress& progress) {
+    return runner.take_stroke(drive, voxels, steps, gesture, progress);
+  });
+  emit state_changed();
+}
+
+void CaseProxy::set_drive(const document::Drive& wanted, std::uint64_t gesture) {
+  document::Drive drive = wanted;
+  if (!want(drive)) return;
   post([drive, gesture](CaseRunner& runner, const Progress&) {
     return runner.report_edit(runner.document().level_set().set_drive(drive, gesture));
   });

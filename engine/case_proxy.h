@@ -37,7 +37,6 @@ class CaseSweep;
 class LabelFinisher;
 class LockStep;
 class RegionMeter;
-class StrokeMotion;
 class WantedMap;
 class WeakReceiver;
 struct RecordedStep;
@@ -120,6 +119,11 @@ class CaseProxy : public QObject {
   // The speed function that belongs to it is made in the background, and drives the surface from then on.
   // Its images are those that the display says are used, where a function uses images; else none.
   void set_drive(const document::Drive& drive, std::uint64_t gesture = 0);
+  // The same after a stroke of examples over `voxels`, ascending. With steps, it pauses until the function
+  // has learned from it, and then moves by so many, or until it rests: a leak is seen while it is small. What
+  // of a stroke inside lies outside of the surface is added to it; without a surface it begins in all strokes
+  // inside. Whatever else is done meanwhile calls that off. In lock-step the surface does not move by it.
+  void take_stroke(const document::Drive& drive, const std::vector<std::int64_t>& voxels, std::int64_t steps);
   void begin(const document::Start& start);
   void paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture);
   // The level set's source (0: the volume itself). It is smoothed in the background; undo() gives that up.
@@ -148,7 +152,6 @@ class CaseProxy : public QObject {
   void brush_label(document::LabelRegion stroke, document::Labels::Stroke what, document::Take take);
   [[nodiscard]] LabelFinisher& label_finisher() { return *label_finisher_; }
   [[nodiscard]] RegionMeter& region_meter() { return *region_meter_; }
-  [[nodiscard]] StrokeMotion& stroke_motion() { return *stroke_motion_; }
   // With `within_mm` the label is refined: the surface stays that near to it.
   void begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 
@@ -207,6 +210,7 @@ class CaseProxy : public QObject {
   void use_truth();
   void show_distances();
   void show_images_of_drive();
+  bool want(document::Drive& drive);
   void set_playing(bool playing);
 
   Engine& engine_;
@@ -221,7 +225,6 @@ class CaseProxy : public QObject {
   std::unique_ptr<CaseSweep> sweep_;
   std::unique_ptr<LabelFinisher> label_finisher_;
   std::unique_ptr<RegionMeter> region_meter_;
-  std::unique_ptr<StrokeMotion> stroke_motion_;
   CaseState state_;
   std::unique_ptr<CaseBalance> balance_;
   std::unique_ptr<WantedMap> truth_error_;

@@ -135,6 +135,7 @@ void CaseRunner::phi_changed() {
 }
 
 Status CaseRunner::report_edit(Status outcome) {
+  stroke_steps_ = 0;
   if (outcome) phi_changed();
   return outcome;
 }
@@ -196,7 +197,11 @@ void CaseRunner::take_speed(const SpeedOrigin& origin, const SpeedMaker::Made& m
     set_playing(false);
   } else if (*taken) {
     report_change({});
-    if (playing_) post_steps();
+    if (playing_) {
+      post_steps();
+    } else if (stroke_steps_ > 0) {
+      play({stroke_steps_, true, {}});
+    }
   }
   show();
 }

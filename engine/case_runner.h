@@ -51,6 +51,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   [[nodiscard]] const Error* obstacle() const { return obstacle_ ? &*obstacle_ : nullptr; }
   [[nodiscard]] document::Case& document() { return *case_; }
   [[nodiscard]] CasePainter& painter() { return painter_; }
+  // See CaseProxy.
+  Status take_stroke(const document::Drive& drive, const std::vector<std::int64_t>& voxels,
+                     std::int64_t steps, std::uint64_t gesture, const Progress& progress);
   // After a command that has changed phi, its other conditions, or labels: publishes the outcome.
   Status report_edit(Status outcome);
   Status report_change(Status outcome);
@@ -65,7 +68,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   [[nodiscard]] bool playing() const { return playing_; }
   // Plays for so many steps, or until the surface rests where that comes before and is asked for. A leak does
   // not end it. `ended` is called on the proxy's thread once the state that it leads to is known there: with
-  // whether it came to its end.
+  // whether it came to its end. It may be empty.
   struct Run {
     std::int64_t steps = 0;
     bool until_rest = false;
@@ -114,6 +117,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void draw_in_turn(const std::shared_ptr<ViewSlot>& slot, Priority priority, std::stop_token stop);
   void draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token stop);
   Status measure(bool thoroughly);
+  Status add_missed(const std::vector<std::int64_t>& inside, std::uint64_t gesture);
   void follow_drive();
   void take_speed(const SpeedOrigin& origin, const SpeedMaker::Made& made);
   [[nodiscard]] SpeedMaker::Report report() const;  // of long work, to the proxy
@@ -149,10 +153,11 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   bool pause_at_convergence_ = true;
   bool measurement_waits_ = false;
   bool history_waits_ = false;
-  std::uint64_t turn_ = 0;        // of the steps that wait: those of earlier ones are not wanted any more
-  std::int64_t advances_ = 0;     // how often steps were computed
-  std::optional<Run> run_;        // that is under way; `steps` are left of it
-  std::optional<Run> ended_run_;  // to be reported; `steps` were not computed
+  std::uint64_t turn_ = 0;         // of the steps that wait: those of earlier ones are not wanted any more
+  std::int64_t advances_ = 0;      // how often steps were computed
+  std::int64_t stroke_steps_ = 0;  // by the function that learns from a stroke; 0: none
+  std::optional<Run> run_;         // that is under way; `steps` are left of it
+  std::optional<Run> ended_run_;   // to be reported; `steps` were not computed
 
   std::shared_ptr<const PagedBytes> label_voxels_;  // as of label_revision_
   std::uint64_t label_revision_ = 0;

@@ -14,6 +14,7 @@ void CaseRunner::set_playing(bool playing) {
 
 void CaseRunner::play_alone(bool playing) {
   const bool begins = playing && !playing_;
+  stroke_steps_ = 0;
   if (begins) case_speed_.try_again();
   if (begins) leak_watch_.forget_alarm();
   playing_ = playing && case_->level_set().begun();
@@ -38,8 +39,10 @@ void CaseRunner::play(Run run) {
 
 void CaseRunner::report_end_of_run() {
   if (!ended_run_) return;
-  receiver_.weak_receiver->send(
-      [ended = std::move(ended_run_->ended), reached = ended_run_->steps == 0] { ended(reached); });
+  if (ended_run_->ended) {
+    receiver_.weak_receiver->send(
+        [ended = std::move(ended_run_->ended), reached = ended_run_->steps == 0] { ended(reached); });
+  }
   ended_run_.reset();
 }
 

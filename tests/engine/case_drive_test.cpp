@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "engine/speed_sampler.h"
-#include "engine/stroke_motion.h"
 #include "solver/speed/speed_registry.h"
 #include "tests/engine/ball_case.h"
 #include "tests/support/test_program.h"
@@ -180,7 +179,7 @@ class CaseDriveTest : public QObject {
       return Index3(glm::round(geometry.to_voxel(place_mm)));
     };
     const auto stroke = [&](const document::Drive& drive, const std::vector<std::int64_t>& voxels) {
-      proxy_->stroke_motion().take(drive, voxels, 20);
+      proxy_->take_stroke(drive, voxels, 20);
     };
     // One kind alone teaches nothing, and the surface does not begin.
     document::Drive drive = learning(10.0);
@@ -195,6 +194,7 @@ class CaseDriveTest : public QObject {
 
     // The first stroke of the other kind begins it, by what it teaches.
     drive = learning(10.0);
+    drive.strokes = both;
     stroke(drive, both->outside);
     QTRY_VERIFY(proxy_->state().step == 20 && !proxy_->state().playing);
     QVERIFY(proxy_->state().speed);
@@ -226,18 +226,50 @@ class CaseDriveTest : public QObject {
     // The stroke with what it adds is one entry, the run another.
     QCOMPARE(proxy_->state().history->size(), entries + 2);
 
-    // Undone before it is learned, it moves nothing.
+    // The way back takes both.
     proxy_->undo();
+    proxy_->undo();
+    QTRY_VERIFY(proxy_->state().drive.strokes == both);
+    ball_->wait_until_idle();
+    QCOMPARE(proxy_->state().step, std::int64_t{20});
+    QVERIFY(proxy_->state().phi->at(voxel_at(beside)) <= 0.0F);
+    QVERIFY(ball_->failures.isEmpty());
+  }
+
+  void whatever_else_is_done_calls_off_the_motion_after_a_stroke() {
+    ball_->begin();
+    const document::Drive drive = learning(200.0);  // takes a while to learn
+    const auto rests = [&](std::int64_t step) {
+      QTRY_VERIFY(!proxy_->state().speed_waits);
+      ball_->wait_until_idle();
+      QTest::qWait(300);
+      QCOMPARE(proxy_->state().step, step);
+      QVERIFY(!proxy_->state().playing);
+    };
+    const auto another = [&] {
+      document::Drive copy = drive;
+      copy.strokes = std::make_shared<solver::Strokes>(*drive.strokes);
+      return copy;
+    };
+    proxy_->take_stroke(another(), {}, 20);
+    proxy_->undo();
+    rests(0);
+    proxy_->take_stroke(another(), {}, 20);
+    proxy_->pause();
+    rests(0);
+    QVERIFY(proxy_->state().speed);
+    // Play goes on until the surface rests.
+    proxy_->take_stroke(another(), {}, 1);
+    proxy_->play();
+    QTRY_VERIFY(!proxy_->state().playing && proxy_->state().step > 1);
+    // Where nothing learns from strokes, they move nothing.
     ball_->wait_until_idle();
     const std::int64_t step = proxy_->state().step;
-    drive.setting.terms.front().values.at("trees") = 400.0;
-    drive.strokes = std::make_shared<solver::Strokes>(*both);
-    stroke(drive, {});
-    proxy_->undo();
-    ball_->wait_until_idle();
-    QTest::qWait(300);
-    QCOMPARE(proxy_->state().step, step);
-    QVERIFY(!proxy_->state().playing);
+    document::Drive tent = another();
+    tent.setting = {};
+    proxy_->take_stroke(tent, {}, 20);
+    rests(step);
+    QVERIFY(!proxy_->state().speed);
     QVERIFY(ball_->failures.isEmpty());
   }
 

@@ -6,7 +6,6 @@
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <algorithm>
 
 #include "engine/stroke_painting.h"
 #include "solver/speed/speed_registry.h"
@@ -23,7 +22,7 @@ namespace {
 
 constexpr double kSmallestVoxels = 0.5;  // voxels
 constexpr double kLargestVoxels = 50.0;
-constexpr int kStrokeSteps[] = {0, 30, 60, 120, 250};
+constexpr std::int64_t kStrokeSteps[] = {0, 30, 60, 120, 250};
 constexpr std::size_t kMostToCount = 20000;  // strokes from files can be whole organs
 
 QString text_of(const Geometry& geometry, const std::vector<std::int64_t>& voxels) {
@@ -33,6 +32,18 @@ QString text_of(const Geometry& geometry, const std::vector<std::int64_t>& voxel
   if (voxels.size() > kMostToCount) return count;
   const std::int64_t strokes = engine::count_strokes(geometry, voxels);
   return ExampleControls::tr("%1 × %2").arg(count_text(strokes), count);
+}
+
+QString text_of(std::int64_t steps) {
+  if (steps == 0) return ExampleControls::tr("as it plays");
+  return ExampleControls::tr("%n steps, then pause", nullptr, static_cast<int>(steps));
+}
+
+// A session may have other steps than those that are offered.
+int index_of(QComboBox& motion, std::int64_t steps) {
+  if (motion.findData(QVariant::fromValue<qint64>(steps)) < 0)
+    motion.addItem(text_of(steps), QVariant::fromValue<qint64>(steps));
+  return motion.findData(QVariant::fromValue<qint64>(steps));
 }
 
 }  // namespace
@@ -57,10 +68,7 @@ ExampleControls::ExampleControls(QWidget* parent) : CaseWidget(parent), content_
       form.choice(tr("After a stroke"),
                   tr("With a number of steps, a stroke moves the surface by so many, and pauses it: a leak "
                      "is seen while it is small. A stroke inside joins the surface."));
-  for (const int steps : kStrokeSteps) {
-    motion_->addItem(steps == 0 ? tr("as it plays") : tr("%n steps, then pause", nullptr, steps),
-                     QVariant::fromValue<qint64>(steps));
-  }
+  for (const std::int64_t steps : kStrokeSteps) index_of(*motion_, steps);
   connect(motion_, &QComboBox::activated, this, [this] {
     const qint64 steps = motion_->currentData().toLongLong();
     change_display([=](engine::DisplaySettings& settings) { settings.stroke_steps = steps; });
@@ -110,8 +118,7 @@ void ExampleControls::refresh() {
   content_->setVisible(learns || drive.strokes || settings.tool == engine::Tool::examples);
   tool_->setChecked(settings.tool == engine::Tool::examples);
   radius_->set_value(settings.stroke_voxels);
-  motion_->setCurrentIndex(
-      std::max(0, motion_->findData(QVariant::fromValue<qint64>(settings.stroke_steps))));
+  motion_->setCurrentIndex(index_of(*motion_, settings.stroke_steps));
   const QString missing = missing_examples(drive.strokes.get());
   missing_->setText(missing);
   missing_->setVisible(!missing.isEmpty());

@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
-#include "engine/stroke_motion.h"
 #include "solver/speed/speed_registry.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/tr.h"
@@ -68,12 +67,7 @@ void ExampleDrag::move(const Pointer& pointer) {
 }
 
 void ExampleDrag::release() {
-  const document::Drive drive = taught(proxy().drive(), strokes_);
-  if (const std::int64_t steps = display().settings().stroke_steps; steps > 0) {
-    proxy().stroke_motion().take(drive, voxels_, steps);
-  } else {
-    proxy().set_drive(drive, engine::CaseProxy::new_gesture());
-  }
+  proxy().take_stroke(taught(proxy().drive(), strokes_), voxels_, display().settings().stroke_steps);
 }
 
 QString ExampleDrag::text() const {

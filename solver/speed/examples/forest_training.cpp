@@ -50,6 +50,7 @@ class TreeBuilder {
     const Counts all = count(0, samples.count());
     weight_[0] = 0.5 * static_cast<double>(all.all()) / static_cast<double>(all.outside);
     weight_[1] = 0.5 * static_cast<double>(all.all()) / static_cast<double>(all.inside);
+    leaf_ = std::clamp<std::int64_t>(std::min(all.inside, all.outside) / 4, 1, options.smallest_leaf);
     tried_ = options.tried_features > 0
                  ? options.tried_features
                  : std::max(1, static_cast<int>(std::lround(std::sqrt(samples.features))));
@@ -80,8 +81,7 @@ class TreeBuilder {
     const std::size_t node = nodes_.size();
     nodes_.emplace_back();
     Split split;
-    if (counts.inside > 0 && counts.outside > 0 && depth < options_.depth &&
-        counts.all() >= 2 * options_.smallest_leaf) {
+    if (counts.inside > 0 && counts.outside > 0 && depth < options_.depth && counts.all() >= 2 * leaf_) {
       split = best_split(begin, end, counts);
     }
     if (split.feature < 0) {
@@ -138,7 +138,7 @@ class TreeBuilder {
     }
     left.outside = count - left.inside;
     const Counts right{all.outside - left.outside, all.inside - left.inside};
-    if (left.all() < options_.smallest_leaf || right.all() < options_.smallest_leaf) return;
+    if (left.all() < leaf_ || right.all() < leaf_) return;
     split.impurity = impurity(left) + impurity(right);
     if (split.impurity < best.impurity) best = split;
   }
@@ -152,6 +152,7 @@ class TreeBuilder {
   std::vector<std::size_t> order_;  // samples, those of a node side by side
   double weight_[2] = {1.0, 1.0};   // of a sample outside and inside
   int tried_ = 1;
+  std::int64_t leaf_ = 1;  // samples, at least
   std::vector<TreeNode> nodes_;
 };
 

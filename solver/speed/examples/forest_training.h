@@ -21,7 +21,7 @@ struct Samples {
 struct TrainingOptions {
   int trees = 100;
   int depth = 12;
-  int smallest_leaf = 3;     // samples
+  int smallest_leaf = 3;     // samples; fewer where a class has not four times as many
   int tried_features = 0;    // a node; 0: the root of their number
   int tried_thresholds = 1;  // a feature
   std::uint64_t seed = 1;
