@@ -50,7 +50,8 @@ Status LevelSet::close() {
   Status known = read_back_phi();
   if (known && !open_->before.same_as(known_)) {
     // The change stays open, as far as it has no entry yet, if there is no memory for one.
-    if (open_->last_edit) {
+    // A function that has arrived since the last edit makes none of its own.
+    if (open_->last_edit && open_->last_edit->recipe.steps != known_.recipe.steps) {
       add_entry(description().kind, open_->before, *open_->last_edit);
       open_ = Open{ChangeKind::evolution, 0, *std::move(open_->last_edit), std::nullopt};
     }

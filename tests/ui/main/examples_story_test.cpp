@@ -309,7 +309,7 @@ void ExamplesStoryTest::each_stroke_moves_the_surface_and_pauses_it() {
   QTest::keyClick(motion, Qt::Key_Down);
   QCOMPARE(desktop.proxy().display().settings().stroke_steps, std::int64_t{60});
 
-  // No Play is pressed: the fifth stroke is the first one that has something to teach.
+  // No Play is pressed: the second stroke is the first one that has something to teach.
   const auto stroke = [&](glm::dvec3 from, glm::dvec3 to, Qt::MouseButton button) {
     Desktop::drag(*axial, {middle + from, middle + 0.5 * (from + to), middle + to}, button);
   };
@@ -322,6 +322,7 @@ void ExamplesStoryTest::each_stroke_moves_the_surface_and_pauses_it() {
   QVERIFY(!desktop.state().begun);
   stroke({-28.0, -20.0, 0.0}, {28.0, -26.0, 0.0}, Qt::RightButton);
   QVERIFY(rests_after(60));
+  const std::size_t first_outside = outside(desktop);
   stroke({-27.0, 10.0, 0.0}, {-22.0, 28.0, 0.0}, Qt::RightButton);
   QVERIFY(rests_after(120));
   // One stroke is two entries: itself, and the run.
@@ -330,8 +331,10 @@ void ExamplesStoryTest::each_stroke_moves_the_surface_and_pauses_it() {
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
   desktop.wait_until_idle();
   QCOMPARE(desktop.state().step, std::int64_t{60});
+  QVERIFY(outside(desktop) > first_outside);
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
   desktop.wait_until_idle();
+  QCOMPARE(outside(desktop), first_outside);
   QCOMPARE(desktop.state().step, std::int64_t{60});
   QVERIFY(!desktop.state().playing);
 }
