@@ -122,7 +122,7 @@ class CaseProxy : public QObject {
   // The same after a stroke of examples over `voxels`, ascending. With steps, it pauses until the function
   // has learned from it, and then moves by so many, or until it rests: a leak is seen while it is small. What
   // of a stroke inside lies outside of the surface is added to it; without a surface it begins in all strokes
-  // inside. Whatever else is done meanwhile calls that off. In lock-step the surface does not move by it.
+  // inside. Play, pause and edits of the surface call that off. In lock-step the surface does not move by it.
   void take_stroke(const document::Drive& drive, const std::vector<std::int64_t>& voxels, std::int64_t steps);
   void begin(const document::Start& start);
   void paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture);
