@@ -1,6 +1,7 @@
 #include "renderer/quality_control.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace tidemark::renderer {
 
@@ -84,34 +85,20 @@ Picture PictureMean::mean() const {
   return picture;
 }
 
-// Takes the least and the greatest of each column of three pixels, then of three such columns.
 std::vector<std::uint8_t> uneven_pixels(const Picture& picture, int levels) {
-  const std::int64_t row = 4 * picture.width;
-  std::vector<std::uint8_t> least(static_cast<std::size_t>(row));
-  std::vector<std::uint8_t> greatest(least.size());
-  std::vector<std::uint8_t> uneven;
-  uneven.reserve(picture.pixels.size() / 4);
-  for (std::int64_t y = 0; y < picture.height; ++y) {
-    const std::uint8_t* const here = picture.pixels.data() + row * y;
-    const std::uint8_t* const above = y > 0 ? here - row : here;
-    const std::uint8_t* const below = y + 1 < picture.height ? here + row : here;
-    for (std::int64_t i = 0; i < row; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      least[at] = std::min({above[i], here[i], below[i]});
-      greatest[at] = std::max({above[i], here[i], below[i]});
-    }
-    for (std::int64_t x = 0; x < picture.width; ++x) {
-      const auto left = static_cast<std::size_t>(4 * std::max<std::int64_t>(x - 1, 0));
-      const auto middle = static_cast<std::size_t>(4 * x);
-      const auto right = static_cast<std::size_t>(4 * std::min(x + 1, picture.width - 1));
-      int contrast = 0;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const int low = std::min({least[left + c], least[middle + c], least[right + c]});
-        const int high = std::max({greatest[left + c], greatest[middle + c], greatest[right + c]});
-        contrast = std::max(contrast, high - low);
-      }
-      uneven.push_back(contrast > levels ? 1 : 0);
-    }
+  const auto pixels = static_cast<std::size_t>(picture.width * picture.height);
+  const auto width = static_cast<std::size_t>(picture.width);
+  std::vector<std::uint8_t> uneven(pixels, 0);
+  const auto compare = [&](std::size_t one, std::size_t other) {
+    const std::uint8_t* const a = picture.pixels.data() + 4 * one;
+    const std::uint8_t* const b = picture.pixels.data() + 4 * other;
+    const int difference = std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+    if (difference > levels) uneven[one] = uneven[other] = 1;
+  };
+  for (std::size_t row = 0; row < pixels; row += width) {
+    for (std::size_t x = 1; x < width; ++x) compare(row + x - 1, row + x);
+    if (row == 0) continue;
+    for (std::size_t x = 0; x < width; ++x) compare(row - width + x, row + x);
   }
   return uneven;
 }

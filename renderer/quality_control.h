@@ -25,7 +25,7 @@ class QualityControl {
   static constexpr double kInteractive = 0.033;  // seconds a picture may take while something moves
   static constexpr double kForHalf = 1.5;  // a picture of half the pixels a side may take so many times it
   static constexpr int kSmallest = 4;      // a moving picture has at least a fourth of the pixels a side
-  static constexpr int kRounds = 8;  // pictures of a still view, at most, whose mean is the finished one
+  static constexpr int kRounds = 9;  // pictures of a still view, at most, whose mean is the finished one
 
   // The view (camera, level set, anything) has changed: the next picture keeps to the budget.
   void moved();
@@ -60,9 +60,9 @@ class PictureMean {
   std::vector<std::uint32_t> sums_;
 };
 
-// For each pixel whether those of the 3 x 3 around it differ by more than `levels` in red, green or blue: on
-// edges, and where there is noise. Elsewhere further rounds change little: thin things that all the first
-// rays missed.
+// For each pixel whether it differs from one of its four neighbours by more than `levels` in red, green or
+// blue: on edges, and where there is noise. Elsewhere further rounds change little: thin things that all the
+// first rays missed.
 std::vector<std::uint8_t> uneven_pixels(const Picture& picture, int levels = 12);
 
 }  // namespace tidemark::renderer

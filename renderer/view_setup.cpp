@@ -5,16 +5,6 @@
 #include <glm/geometric.hpp>
 
 namespace tidemark::renderer {
-namespace {
-
-// Digits of `index` mirrored at the point: fills [0, 1) evenly (van der Corput).
-double mirrored(int index, int base) {
-  double result = 0.0;
-  for (double share = 1.0 / base; index > 0; index /= base, share /= base) result += share * (index % base);
-  return result;
-}
-
-}  // namespace
 
 bool shows_source(const VolumeView& view) {
   return view.source && !view.source->source.empty();
@@ -79,8 +69,11 @@ VoxelPlane clip_plane_in_voxels(const ClipPlane& plane, const Geometry& geometry
 }
 
 glm::dvec2 offset_of_round(int round) {
-  if (round == 0) return glm::dvec2(0.0);
-  return glm::dvec2(mirrored(round, 2), mirrored(round, 3)) - 0.5;
+  constexpr int kRows = 9;
+  constexpr int kSlope = 2;
+  const int place = round % 3 * 3 + round / 3 % 3;
+  const auto from_middle = [](int row) { return (row % kRows + kRows / 2) % kRows - kRows / 2; };
+  return glm::dvec2(from_middle(place), from_middle(kSlope * place)) / static_cast<double>(kRows);
 }
 
 glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size) {

@@ -30,7 +30,9 @@ struct VoxelPlane {
 };
 VoxelPlane clip_plane_in_voxels(const ClipPlane& plane, const Geometry& geometry);
 
-// Where in a pixel the rays of a round are, in pixels from its middle: in the middle first.
+// Where in a pixel the rays of a round are, in pixels from its middle. Nine rounds are a lattice with one
+// place in each ninth of the pixel's width and height. The first of them is the middle, and the first three
+// are a lattice, too.
 glm::dvec2 offset_of_round(int round);
 // Moves a view by so many pixels of a picture.
 glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/large_pages.h"
 #include "core/thread_pool.h"
 
 namespace tidemark::bench {
@@ -64,7 +65,8 @@ Volume ct_phantom(Index3 size) {
   volume.geometry.spacing_mm = {0.75, 0.75, 1.0};
   volume.modality = "CT";
   volume.unit = "HU";
-  std::vector<std::int16_t> voxels(static_cast<std::size_t>(size.x * size.y * size.z));
+  // As a study lies that was read from files.
+  auto voxels = make_large_vector<std::int16_t>(static_cast<std::size_t>(size.x * size.y * size.z));
   const auto fill_slice = [&](std::int64_t k) {
     for (std::int64_t j = 0; j < size.y; ++j) {
       for (std::int64_t i = 0; i < size.x; ++i) {

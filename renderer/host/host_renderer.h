@@ -34,7 +34,7 @@ class HostRenderer final : public Renderer {
   Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress) override;
   // Means of four differ from one another no more than means of eight do
   // (docs/decisions/024-host-renderer.md).
-  [[nodiscard]] int still_rounds() const override { return 4; }
+  [[nodiscard]] int still_rounds() const override { return 3; }
   // After the first round only uneven_pixels() of the mean get another ray.
   Status add_round(const VolumeView& view, PictureSize size, PictureMean& mean,
                    const Progress& progress) override;

@@ -85,6 +85,7 @@ void RayCaster::set_up_source() {
         one.colour};
   }
   pieces_.fast_gradient = view_.quality.fast_gradient;
+  pieces_.rays_are_sparse = pixel_mm_ > std::min({spacing_.x, spacing_.y, spacing_.z});
   pieces_.region = view_.region;
   pieces_.tint = glm::vec3(view_.surface_colour);
   pieces_.direction = direction_;
@@ -259,8 +260,24 @@ RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
 void RayCaster::march_evenly(Ray& ray, float end, float step, float& first, Pieces& pieces) const {
   const float phi = pieces.phi[static_cast<std::size_t>(pieces.count)];
   while (ray.t < end && !ray.is_opaque()) {
-    const float next = ray.t + (first > 0.0F ? std::exchange(first, 0.0F) : step);
-    add_piece(ray, std::min(next, end), phi, pieces);
+    const float far_end = (pieces.count > 0 ? pieces.to[0] : ray.t) + kFar;
+    const int room = Pieces::kMost - pieces.count;
+    const int whole = std::min(room, static_cast<int>((std::min(end, far_end) - ray.t) / step));
+    if (whole <= 1 || first > 0.0F || ray.picks) {
+      const float next = ray.t + (first > 0.0F ? std::exchange(first, 0.0F) : step);
+      add_piece(ray, std::min(next, end), phi, pieces);
+      continue;
+    }
+    // Those that have room, at once.
+    const auto piece = static_cast<std::size_t>(pieces.count);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(whole); ++i) {
+      pieces.from[piece + i] = ray.t + static_cast<float>(i) * step;
+      pieces.to[piece + i] = ray.t + static_cast<float>(i + 1) * step;
+      pieces.phi[piece + i + 1] = phi;
+    }
+    pieces.count += whole;
+    ray.t += static_cast<float>(whole) * step;
+    if (whole == room) shade(ray, pieces);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "renderer/host/shade_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 // This file is compiled once for each of these instruction sets; the best one is chosen when the program
@@ -77,16 +78,15 @@ struct Material {
 };
 
 // The mean of a factor while the value goes evenly from a to b: no step is too long for a thin Gaussian.
-// `before`: the integral where the first lane's piece begins; then, where the last one's ends.
-HWY_INLINE V mean_factor(const PieceScene::Factor& shape, V a, V b, float& before) {
+// `inverse`: of b - a. `before`: the integral where the first lane's piece begins; then, where the last one's
+// ends.
+HWY_INLINE V mean_factor(const PieceScene::Factor& shape, V a, V b, V inverse, float& before) {
   if (shape.kind == TransferFactor::Kind::everything) return set(1.0F);
   const bool gaussian = shape.kind == TransferFactor::Kind::gaussian;
-  const V scale = set(1.0F / (gaussian ? shape.end : shape.end - shape.start));
-  const V v = hn::Mul(hn::Sub(b, set(shape.start)), scale);
-  const V way = hn::Mul(hn::Sub(b, a), scale);
-  const V after = integral(shape, v);
-  const auto short_way = hn::Lt(hn::Abs(way), set(0.1F));
-  V mean = hn::Div(hn::Sub(after, move_up(before, after)), way);
+  const float width = gaussian ? shape.end : shape.end - shape.start;
+  const V after = integral(shape, hn::Mul(hn::Sub(b, set(shape.start)), set(1.0F / width)));
+  const auto short_way = hn::Lt(hn::Abs(hn::Sub(b, a)), set(0.1F * std::abs(width)));
+  V mean = hn::Mul(hn::Mul(hn::Sub(after, move_up(before, after)), set(width)), inverse);
   before = last_of(after);
   if (!hn::AllFalse(Tag(), short_way)) {
     mean = hn::IfThenElse(short_way, factor(shape, hn::Mul(set(0.5F), hn::Add(a, b))), mean);
@@ -99,10 +99,11 @@ using Shares = V[TransferFunction::kMostPrimitives];
 HWY_INLINE V shares_of(const PieceScene& scene, V a, V b, V phi, Pieces::Integrals& integrals,
                        Shares& shares) {
   V sum = hn::Zero(Tag());
+  const V inverse = hn::Div(set(1.0F), hn::Sub(b, a));
   for (int i = 0; i < scene.count; ++i) {
     const PieceScene::Primitive& one = scene.primitives[static_cast<std::size_t>(i)];
-    shares[i] =
-        hn::Mul(set(one.opacity), mean_factor(one.value, a, b, integrals[static_cast<std::size_t>(i)]));
+    shares[i] = hn::Mul(set(one.opacity),
+                        mean_factor(one.value, a, b, inverse, integrals[static_cast<std::size_t>(i)]));
     if (one.phi.kind != TransferFactor::Kind::everything)
       shares[i] = hn::Mul(shares[i], factor(one.phi, phi));
     sum = hn::Add(sum, shares[i]);
@@ -136,6 +137,12 @@ HWY_INLINE V share_in_region(Region region, V phi_a, V phi_b) {
   const V whole = hn::IfThenElse(in_a, one, zero);
   const V inside = hn::IfThenElse(hn::Xor(in_a, in_b), crossed, whole);
   return region == Region::inside ? inside : hn::Sub(one, inside);
+}
+
+HWY_INLINE Place place_at(const PieceScene& scene, const Pieces& pieces, V along) {
+  return {hn::MulAdd(along, set(scene.direction.x), set(pieces.start.x)),
+          hn::MulAdd(along, set(scene.direction.y), set(pieces.start.y)),
+          hn::MulAdd(along, set(scene.direction.z), set(pieces.start.z))};
 }
 
 HWY_INLINE V dot(const Place& a, const glm::vec3& b) {
@@ -192,14 +199,13 @@ HWY_INLINE bool shade_lanes(const PieceScene& scene, Pieces& pieces, const Sampl
   const V phi = hn::Mul(set(0.5F), hn::Add(phi_a, phi_b));
   Shares shares;
   const auto shows = [&](V opacity) HWY_ATTR { return hn::Gt(hn::Mul(opacity, length), set(kLeastOpacity)); };
-  if (hn::AllFalse(d, shows(shares_of(scene, a, b, phi, pieces.integrals, shares)))) return false;
+  const auto may_show = shows(shares_of(scene, a, b, phi, pieces.integrals, shares));
+  if (hn::AllFalse(d, may_show)) return false;
 
   Place gradient = cell_slope;
   if (!scene.fast_gradient) {
     const V middle = hn::Mul(set(0.5F), hn::Add(begin, end));
-    gradient = sampler.central_slope({hn::MulAdd(middle, set(scene.direction.x), set(pieces.start.x)),
-                                      hn::MulAdd(middle, set(scene.direction.y), set(pieces.start.y)),
-                                      hn::MulAdd(middle, set(scene.direction.z), set(pieces.start.z))});
+    gradient = sampler.central_slope(place_at(scene, pieces, middle), may_show);
   }
   const float slope = scene.source->slope();
   gradient.x = hn::Mul(gradient.x, set(slope * scene.inverse_spacing.x));
@@ -246,12 +252,17 @@ HWY_INLINE void shade(const PieceScene& scene, Pieces& pieces, glm::vec4& result
   std::fill(pieces.to.begin() + pieces.count, pieces.to.end(), pieces.to[count - 1]);
   std::fill(pieces.phi.begin() + pieces.count + 1, pieces.phi.end(), pieces.phi[count]);
   Shaded shaded;
+  // Not in memory, where each sum would wait for the one before.
+  float red = result.r, green = result.g, blue = result.b;
   float left = 1.0F - result.a;
   for (int first = 0; first < pieces.count; first += kLanes) {
     const V end = hn::LoadU(d, pieces.to.data() + first);
-    const Place place{hn::MulAdd(end, set(scene.direction.x), set(pieces.start.x)),
-                      hn::MulAdd(end, set(scene.direction.y), set(pieces.start.y)),
-                      hn::MulAdd(end, set(scene.direction.z), set(pieces.start.z))};
+    const Place place = place_at(scene, pieces, end);
+    if (scene.rays_are_sparse) {
+      const auto begin = static_cast<std::size_t>(first);
+      const float length = pieces.to[begin + kLanes - 1] - pieces.from[begin];
+      sampler.ask_for(sampler.cell(place_at(scene, pieces, hn::Add(end, set(length)))));
+    }
     Place slope{};
     const auto cell = sampler.cell(place);
     const V stored = scene.fast_gradient ? sampler.value(cell, slope) : sampler.value(cell);
@@ -259,15 +270,16 @@ HWY_INLINE void shade(const PieceScene& scene, Pieces& pieces, glm::vec4& result
     const V a = move_up(pieces.value, b);
     pieces.value = last_of(b);
     if (!shade_lanes(scene, pieces, sampler, first, end, a, b, slope, shaded)) continue;
-    for (int i = 0; i < std::min(pieces.count - first, kLanes) && 1.0F - left < kOpaque; ++i) {
-      result.r += left * shaded.red[i];
-      result.g += left * shaded.green[i];
-      result.b += left * shaded.blue[i];
+    const int lanes = std::min(pieces.count - first, kLanes);
+    for (int i = 0; i < lanes && 1.0F - left < kOpaque; ++i) {
+      red += left * shaded.red[i];
+      green += left * shaded.green[i];
+      blue += left * shaded.blue[i];
       left *= shaded.transparency[i];
     }
-    result.a = 1.0F - left;
-    if (result.a >= kOpaque) break;
+    if (1.0F - left >= kOpaque) break;
   }
+  result = {red, green, blue, 1.0F - left};
   pieces.phi[0] = pieces.phi[count];
   pieces.count = 0;
 }

@@ -27,6 +27,8 @@ struct PieceScene {
   std::array<Primitive, TransferFunction::kMostPrimitives> primitives;
   int count = 0;
   bool fast_gradient = false;  // lights by differences within a voxel
+  // Rays are more than a voxel apart: what one has read does not lie in caches for the next.
+  bool rays_are_sparse = false;
   Region region = Region::everywhere;
   glm::vec3 tint{0.0F};  // of the inside in Region::tinted
 

@@ -153,6 +153,16 @@ class Sampler {
     return cell;
   }
 
+  // Asks for the voxels of value(), which are needed soon.
+  HWY_INLINE void ask_for(const Cell& cell) const {
+    alignas(64) std::int32_t at[kLanes];
+    hn::Store(offset(cell), IntTag(), at);
+    for (Lane lane = 0; lane < kLanes; ++lane) {
+      const T* first = base_ + at[lane];
+      for (int i = 0; i < 4; ++i) __builtin_prefetch(first + (i & 1) * step_y_ + (i >> 1) * step_z_);
+    }
+  }
+
   HWY_INLINE V value(const Cell& cell) const {
     V rows[4];
     Pair pairs[4];
@@ -175,10 +185,22 @@ class Sampler {
     return mix(below, above, cell.share_z);
   }
 
-  // From differences over a voxel to each side, per voxel.
-  HWY_INLINE Place central_slope(const Place& place) const {
+  // From differences over a voxel to each side, per voxel. Of the lanes that are `wanted`; others get any.
+  HWY_INLINE Place central_slope(const Place& place, hn::Mask<Tag> wanted) const {
     const Cell cell = this->cell(place);
-    return is_inner(cell) ? inner_slope(cell) : border_slope(place);
+    const Cell inner{to_inner(cell.x, size_.x),
+                     to_inner(cell.y, size_.y),
+                     to_inner(cell.z, size_.z),
+                     cell.share_x,
+                     cell.share_y,
+                     cell.share_z};
+    const auto moved =
+        hn::Or(hn::Ne(cell.x, inner.x), hn::Or(hn::Ne(cell.y, inner.y), hn::Ne(cell.z, inner.z)));
+    const bool has_room = std::min({size_.x, size_.y, size_.z}) > 3;
+    if (has_room && hn::AllFalse(IntTag(), hn::And(moved, hn::RebindMask(IntTag(), wanted)))) {
+      return inner_slope(inner);
+    }
+    return border_slope(place);
   }
 
  private:
@@ -209,46 +231,86 @@ class Sampler {
     }
   }
 
-  HWY_INLINE static bool inner_along(I low, int size) {
-    const auto below = hn::Lt(low, hn::Set(IntTag(), 1));
-    const auto above = hn::Gt(low, hn::Set(IntTag(), size - 3));
-    return hn::AllFalse(IntTag(), hn::Or(below, above));
+  // The nearest cell that has voxels on both sides.
+  HWY_INLINE static I to_inner(I low, int size) {
+    return hn::Max(hn::Min(low, hn::Set(IntTag(), size - 3)), hn::Set(IntTag(), 1));
   }
-  HWY_INLINE bool is_inner(const Cell& cell) const {
-    return inner_along(cell.x, size_.x) && inner_along(cell.y, size_.y) && inner_along(cell.z, size_.z);
+
+  // The voxels around lanes' cells from which central differences come.
+  struct Surroundings {
+    Rows<T, 4> inner[4];
+    Rows<T, 2> outer[8];  // before and behind along y, for both z; then along z, for both y
+  };
+
+  HWY_INLINE Place inner_slope(const Cell& cell) const {
+    alignas(64) std::int32_t at[kLanes];
+    hn::Store(offset(cell), IntTag(), at);
+    Surroundings around;
+    for (Lane lane = 0; lane < kLanes; ++lane) {
+      const T* first = base_ + at[lane];
+      for (int i = 0; i < 4; ++i) {
+        std::memcpy(around.inner[i].voxels[lane], first - 1 + (i & 1) * step_y_ + (i >> 1) * step_z_,
+                    4 * sizeof(T));
+      }
+      for (int i = 0; i < 2; ++i) {
+        const T* in_slice = first + i * step_z_;
+        std::memcpy(around.outer[2 * i].voxels[lane], in_slice - step_y_, 2 * sizeof(T));
+        std::memcpy(around.outer[2 * i + 1].voxels[lane], in_slice + 2 * step_y_, 2 * sizeof(T));
+        const T* in_row = first + i * step_y_;
+        std::memcpy(around.outer[4 + 2 * i].voxels[lane], in_row - step_z_, 2 * sizeof(T));
+        std::memcpy(around.outer[5 + 2 * i].voxels[lane], in_row + 2 * step_z_, 2 * sizeof(T));
+      }
+    }
+    return slope(around, cell);
+  }
+
+  // The same where the voxels on the volume's faces go on beyond them.
+  HWY_NOINLINE Place border_slope(const Place& place) const {
+    alignas(64) std::int32_t low[3][kLanes];
+    Cell cell;
+    below(place.x, low[0], cell.share_x);
+    below(place.y, low[1], cell.share_y);
+    below(place.z, low[2], cell.share_z);
+    Surroundings around;
+    for (Lane lane = 0; lane < kLanes; ++lane) {
+      std::ptrdiff_t x[4], y[4], z[4];  // offsets of the voxels from one before to two behind
+      for (int i = 0; i < 4; ++i) {
+        x[i] = std::clamp(low[0][lane] - 1 + i, 0, size_.x - 1);
+        y[i] = std::ptrdiff_t{std::clamp(low[1][lane] - 1 + i, 0, size_.y - 1)} * row_;
+        z[i] = std::ptrdiff_t{std::clamp(low[2][lane] - 1 + i, 0, size_.z - 1) - first_slice_} * slice_;
+      }
+      for (int i = 0; i < 4; ++i) {
+        const T* row = base_ + y[1 + (i & 1)] + z[1 + (i >> 1)];
+        for (int k = 0; k < 4; ++k) around.inner[i].voxels[lane][k] = row[x[k]];
+        const T* along_y = base_ + y[3 * (i & 1)] + z[1 + (i >> 1)];
+        const T* along_z = base_ + y[1 + (i >> 1)] + z[3 * (i & 1)];
+        for (int k = 0; k < 2; ++k) {
+          around.outer[i].voxels[lane][k] = along_y[x[1 + k]];
+          around.outer[4 + i].voxels[lane][k] = along_z[x[1 + k]];
+        }
+      }
+    }
+    return slope(around, cell);
+  }
+  HWY_INLINE static void below(V position, std::int32_t (&low)[kLanes], V& share) {
+    const V whole = hn::Floor(position);
+    hn::Store(hn::ConvertTo(IntTag(), whole), IntTag(), low);
+    share = hn::Sub(position, whole);
   }
 
   // Trilinear means of the voxels' central differences, which is the same as central differences between
   // voxels.
-  HWY_INLINE Place inner_slope(const Cell& cell) const {
-    alignas(64) std::int32_t at[kLanes];
-    hn::Store(offset(cell), IntTag(), at);
-    Rows<T, 4> inner[4];
-    Rows<T, 2> outer[8];  // before and behind along y, for both z; then along z, for both y
-    for (Lane lane = 0; lane < kLanes; ++lane) {
-      const T* first = base_ + at[lane];
-      for (int i = 0; i < 4; ++i) {
-        std::memcpy(inner[i].voxels[lane], first - 1 + (i & 1) * step_y_ + (i >> 1) * step_z_, 4 * sizeof(T));
-      }
-      for (int i = 0; i < 2; ++i) {
-        const T* in_slice = first + i * step_z_;
-        std::memcpy(outer[2 * i].voxels[lane], in_slice - step_y_, 2 * sizeof(T));
-        std::memcpy(outer[2 * i + 1].voxels[lane], in_slice + 2 * step_y_, 2 * sizeof(T));
-        const T* in_row = first + i * step_y_;
-        std::memcpy(outer[4 + 2 * i].voxels[lane], in_row - step_z_, 2 * sizeof(T));
-        std::memcpy(outer[5 + 2 * i].voxels[lane], in_row + 2 * step_z_, 2 * sizeof(T));
-      }
-    }
+  HWY_INLINE static Place slope(const Surroundings& around, const Cell& cell) {
     V rows[4];  // between voxels along x
     V along_x[4];
     for (int i = 0; i < 4; ++i) {
-      const Pair left = left_of(inner[i]);
-      const Pair right = right_of(inner[i]);
+      const Pair left = left_of(around.inner[i]);
+      const Pair right = right_of(around.inner[i]);
       rows[i] = mix(left.second, right.first, cell.share_x);
       along_x[i] = mix(hn::Sub(right.first, left.first), hn::Sub(right.second, left.second), cell.share_x);
     }
     const auto row = [&](int i) HWY_ATTR {
-      const Pair pair = pair_of(outer[i]);
+      const Pair pair = pair_of(around.outer[i]);
       return mix(pair.first, pair.second, cell.share_x);
     };
     // `i`: of the row before.
@@ -263,17 +325,6 @@ class Sampler {
                   cell.share_y);
     const V half = set(0.5F);
     return {hn::Mul(slope.x, half), hn::Mul(slope.y, half), hn::Mul(slope.z, half)};
-  }
-
-  HWY_NOINLINE Place border_slope(const Place& place) const {
-    const V one = set(1.0F);
-    const V half = set(0.5F);
-    const auto across = [&](const Place& before, const Place& after) HWY_ATTR {
-      return hn::Mul(half, hn::Sub(value(cell(after)), value(cell(before))));
-    };
-    return {across({hn::Sub(place.x, one), place.y, place.z}, {hn::Add(place.x, one), place.y, place.z}),
-            across({place.x, hn::Sub(place.y, one), place.z}, {place.x, hn::Add(place.y, one), place.z}),
-            across({place.x, place.y, hn::Sub(place.z, one)}, {place.x, place.y, hn::Add(place.z, one)})};
   }
 
   glm::ivec3 size_;

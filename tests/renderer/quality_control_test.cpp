@@ -2,9 +2,12 @@
 #include <QTest>
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
 
 #include "renderer/gl/canvas_mean.h"
 #include "renderer/quality_control.h"
+#include "renderer/view_setup.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -95,7 +98,7 @@ class QualityControlTest : public QObject {
     picture.pixels[4 * (5 * 0 + 0)] = 108;      // red of the first one: no more than it may
     picture.pixels[4 * (5 * 0 + 1) + 3] = 0;    // opacity is no colour
     const auto uneven = renderer::uneven_pixels(picture, 8);
-    QCOMPARE(uneven, (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1}));
+    QCOMPARE(uneven, (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1}));
   }
 
   // Only uneven pixels get another ray, and nobody sees a difference.
@@ -160,6 +163,26 @@ class QualityControlTest : public QObject {
     const renderer::Pass pass = *control.next({640, 480});
     QVERIFY(pass.moving);
     QCOMPARE(pass.size.width, 640);  // as fine as moving pictures were
+  }
+
+  // So that their mean is the pixel's, wherever an edge crosses it.
+  void rays_of_three_and_of_nine_rounds_are_spread_over_a_pixel_evenly() {
+    QVERIFY(renderer::offset_of_round(0) == glm::dvec2(0.0));
+    for (const int rounds : {3, 9}) {
+      std::set<int> columns;
+      std::set<int> rows;
+      glm::dvec2 sum(0.0);
+      for (int round = 0; round < rounds; ++round) {
+        const glm::dvec2 offset = renderer::offset_of_round(round);
+        columns.insert(static_cast<int>(rounds * (offset.x + 0.5)));
+        rows.insert(static_cast<int>(rounds * (offset.y + 0.5)));
+        sum += offset;
+      }
+      QCOMPARE(columns.size(), static_cast<std::size_t>(rounds));
+      QCOMPARE(rows.size(), static_cast<std::size_t>(rounds));
+      QVERIFY(*columns.begin() == 0 && *rows.begin() == 0);
+      QVERIFY(glm::length(sum) < 1e-12);
+    }
   }
 
   void the_mean_of_rounds_has_smooth_edges_and_no_bands() {
