@@ -170,7 +170,7 @@ Result<CasePainter::Canvas*> CasePainter::canvas_for(const AnyView& view, docume
   return &canvas;
 }
 
-Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::stop_token stop) {
+Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, bool plays, std::stop_token stop) {
   std::optional<ViewSlot::Wish> wish;
   bool is_new = false;
   {
@@ -188,10 +188,13 @@ Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::st
   }
   slot.drawn_phi = phi_revision_;
   slot.drawn_look = look_revision_;
+  // A user who turns the camera waits for the picture, whatever plays.
+  const double seconds =
+      plays && !is_new ? renderer::QualityControl::kPlaying : renderer::QualityControl::kInteractive;
   const std::int64_t step = document.level_set().step();
   const Progress progress{nullptr, std::move(stop)};
   if (std::holds_alternative<renderer::VolumeView>(wish->view))
-    return draw_volume(slot, *wish, **canvas, step, progress);
+    return draw_volume(slot, *wish, **canvas, seconds, step, progress);
   auto shown = paint(slot, std::get<renderer::SliceView>(wish->view), wish->size, false, **canvas, progress);
   if (!shown) return pass_on(shown);
   deliver(slot, *wish, std::move(*shown), step, true);
@@ -199,16 +202,17 @@ Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, std::st
 }
 
 Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Canvas& canvas,
-                                      std::int64_t step, const Progress& progress) {
+                                      double seconds, std::int64_t step, const Progress& progress) {
   const int rounds = canvas.renderer->still_rounds();
-  const auto pass = slot.quality.next(wish.size, rounds);
+  const auto pass = slot.quality.next(wish.size, rounds, seconds);
   if (!pass) return false;
   renderer::VolumeView view = std::get<renderer::VolumeView>(wish.view);
   view.quality = pass->quality;
   const auto begin = std::chrono::steady_clock::now();
   auto shown = paint(slot, view, pass->size, !pass->moving, canvas, progress);
   if (!shown) return pass_on(shown);
-  slot.quality.drawn(*pass, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  slot.quality.drawn(*pass, shown->painted > 0.5 ? std::optional(passed / shown->painted) : std::nullopt);
   const bool more = slot.quality.next(wish.size, rounds).has_value();
   deliver(slot, wish, std::move(*shown), step, !more);
   return more;
@@ -242,6 +246,7 @@ Result<ShownPicture> CasePainter::paint(ViewSlot& slot, const View& view, render
   if (!picture) return pass_on(picture);
   if (canvas.gl != nullptr) ++pictures_read_back_;
   shown.image = to_image(*picture);
+  shown.painted = picture->painted;
   return shown;
 }
 

@@ -50,8 +50,9 @@ class CasePainter {
 
   [[nodiscard]] bool out_of_date(ViewSlot& slot) const;
   // Draws the next picture of a view and announces it. Returns whether a better one can follow. Fails
-  // (ErrorKind::cancelled) when stopped, (ErrorKind::capability) when the context was lost.
-  Result<bool> draw(ViewSlot& slot, document::Case& document, std::stop_token stop);
+  // (ErrorKind::cancelled) when stopped, (ErrorKind::capability) when the context was lost. While the surface
+  // plays, a picture is drawn that leaves the solver its time.
+  Result<bool> draw(ViewSlot& slot, document::Case& document, bool plays, std::stop_token stop);
   // `labels`: those that the view shows; null: the document's.
   Result<std::optional<renderer::Hit>> pick(const renderer::VolumeView& view, renderer::PictureSize size,
                                             const document::Labels* labels, glm::dvec2 pixel,
@@ -91,8 +92,8 @@ class CasePainter {
       const document::LevelSet& level_set) const;
   static Status show_labels(Canvas& canvas, const document::Labels& labels);
   Status show_phi(Canvas& canvas, document::Case& document, bool with_pages);
-  Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Canvas& canvas, std::int64_t step,
-                           const Progress& progress);
+  Result<bool> draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish, Canvas& canvas, double seconds,
+                           std::int64_t step, const Progress& progress);
   // Draws a picture in the form that the views want; its description is not filled in.
   template <class View>
   Result<ShownPicture> paint(ViewSlot& slot, const View& view, renderer::PictureSize size, bool into_mean,

@@ -290,7 +290,7 @@ void CaseRunner::draw(const std::shared_ptr<ViewSlot>& slot, std::stop_token sto
   if (!case_) return;
   if (auto status = follow_graphics(); !status) return report_failure(status.error());
   slot->drawn_advance = advances_;
-  const auto more = painter_.draw(*slot, *case_, std::move(stop));
+  const auto more = painter_.draw(*slot, *case_, playing_, std::move(stop));
   if (more) {
     if (*more) post_picture(slot, Priority::refine);
   } else if (more.error().kind == ErrorKind::cancelled) {

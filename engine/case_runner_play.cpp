@@ -17,6 +17,7 @@ void CaseRunner::play_alone(bool playing) {
   stroke_steps_ = 0;
   if (begins) case_speed_.try_again();
   if (begins) leak_watch_.forget_alarm();
+  if (begins) pace_.begin_to_play();
   playing_ = playing && case_->level_set().begun();
   if (begins && playing_) post_steps();
   if (!playing_) end_run();
@@ -82,8 +83,9 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
   pace_.begin_steps();
   const std::int64_t most = run_ ? std::min(run_->steps, steps_to_next_picture()) : steps_to_next_picture();
   if (status) status = group ? group->advance(*this, progress) : advance(most, progress);
-  pace_.end_steps();
-  if (run_) run_->steps -= case_->level_set().step() - before;
+  const std::int64_t done = case_->level_set().step() - before;
+  pace_.end_steps(done);
+  if (run_) run_->steps -= done;
   if (run_ && run_->steps <= 0) playing_ = false;
   if (!status && status.error().kind != ErrorKind::cancelled &&
       !(engine_.device() && engine_.device()->lost())) {
@@ -91,7 +93,7 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
     report_failure(status.error());
   }
   if (playing_) {
-    post_steps(pace_.next_due(case_->level_set().step() - before));
+    post_steps(pace_.next_due(done));
   } else {
     end_run();
   }

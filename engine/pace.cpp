@@ -9,7 +9,10 @@ namespace {
 
 constexpr double kUpdateSeconds = 0.048;  // from picture to picture: 20 a second are seen as motion
 constexpr double kChunkSeconds = 0.016;   // of steps between two pictures, at least
-constexpr std::int64_t kMostSteps = 50;   // between two pictures: it should be seen how the surface moves
+// Between two pictures, at most: it should be seen how the surface moves. What has moved for long may move on
+// by a tenth; a surface at rest, whose steps take no time, by no more than the last.
+constexpr std::int64_t kFirstSteps = 50;
+constexpr std::int64_t kMostSteps = 500;
 
 }  // namespace
 
@@ -18,12 +21,17 @@ void Pace::set(double steps_per_second) {
   due_ = Engine::Clock::now();
 }
 
+void Pace::begin_to_play() {
+  played_ = 0;
+}
+
 void Pace::begin_steps() {
   if (ended_ != Engine::Clock::time_point{})
     between_s_ = std::chrono::duration<double>(Engine::Clock::now() - ended_).count();
 }
 
-void Pace::end_steps() {
+void Pace::end_steps(std::int64_t steps) {
+  played_ += steps;
   ended_ = Engine::Clock::now();
 }
 
@@ -32,7 +40,8 @@ std::int64_t Pace::steps_to_next_picture(double seconds_per_step) const {
   if (steps_per_second_ > 0.0) return std::max(std::llround(kChunkSeconds * steps_per_second_), 1LL);
   if (seconds_per_step <= 0.0) return 1;
   const double chunk_s = std::max(kUpdateSeconds - between_s_, kChunkSeconds);
-  return std::clamp(std::llround(chunk_s / seconds_per_step), 1LL, static_cast<long long>(kMostSteps));
+  const std::int64_t most = std::clamp(played_ / 10, kFirstSteps, kMostSteps);
+  return std::clamp<std::int64_t>(std::llround(chunk_s / seconds_per_step), 1, most);
 }
 
 Engine::Clock::time_point Pace::next_due(std::int64_t steps) {

@@ -15,10 +15,11 @@ class Pace {
   // 0: as many as the pace, or else the time of a picture, allows.
   void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
 
+  void begin_to_play();
   // Around each run of steps. What comes between two runs, pictures above all, leaves the next one the rest
   // of the time until a picture is due.
   void begin_steps();
-  void end_steps();
+  void end_steps(std::int64_t steps);
 
   // A step takes `seconds_per_step`; 0: nobody knows.
   [[nodiscard]] std::int64_t steps_to_next_picture(double seconds_per_step) const;
@@ -32,6 +33,7 @@ class Pace {
   Engine::Clock::time_point due_;    // of the steps up to here
   Engine::Clock::time_point ended_;  // the last run of steps
   double between_s_ = 0.0;           // the last two runs
+  std::int64_t played_ = 0;          // steps since it began to play
 };
 
 }  // namespace tidemark::engine

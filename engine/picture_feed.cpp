@@ -29,6 +29,11 @@ void PictureFeed::request(const AnyView& view, renderer::PictureSize size,
   runner_->view_changed(slot_);
 }
 
+void PictureFeed::withdraw() {
+  const std::lock_guard lock(slot_->mutex);
+  slot_->wish.reset();
+}
+
 void PictureFeed::take() {
   slot_->announced = false;
   {

@@ -31,6 +31,7 @@ struct ShownPicture {
   std::int64_t step = 0;       // of the level set
   bool finished = false;       // no better one will come
   std::uint64_t number = 0;    // counts the pictures of this view
+  double painted = 1.0;        // renderer::Picture::painted
 };
 
 // Asks for pictures of a view, and delivers the newest. The picture follows the level set by itself: a new
@@ -45,6 +46,8 @@ class PictureFeed : public QObject {
   // wins; one that is like the last asks for nothing.
   void request(const AnyView& view, renderer::PictureSize size,
                const std::shared_ptr<const document::Labels>& labels = nullptr);
+  // Nothing is drawn until the next request; what was shown last stays.
+  void withdraw();
   [[nodiscard]] const ShownPicture& shown() const { return shown_; }
 
  signals:

@@ -26,7 +26,7 @@ struct ViewSlot {
   std::function<void()> take;  // called through weak_receiver when there is a picture
 
   std::mutex mutex;                    // of the next three
-  std::optional<Wish> wish;            // the newest; none before the first
+  std::optional<Wish> wish;            // the newest; none before the first, and while nobody sees the view
   bool wish_is_new = false;            // since it was last drawn
   ShownPicture finished;               // what the engine drew last
   std::atomic<bool> waiting{false};    // a job to draw it is in the queue

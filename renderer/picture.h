@@ -11,6 +11,7 @@ struct Picture {
   std::int64_t width = 0;
   std::int64_t height = 0;
   std::vector<std::uint8_t> pixels;
+  double painted = 1.0;  // the share of them that was painted for it; others are the last picture's
 };
 
 struct PictureSize {

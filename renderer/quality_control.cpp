@@ -9,7 +9,7 @@ void QualityControl::moved() {
   still_pictures_ = -1;
 }
 
-std::optional<Pass> QualityControl::next(PictureSize full, int rounds) const {
+std::optional<Pass> QualityControl::next(PictureSize full, int rounds, double seconds) const {
   if (still_pictures_ >= rounds) return std::nullopt;
   if (still_pictures_ >= 0) {
     Quality quality;
@@ -24,7 +24,7 @@ std::optional<Pass> QualityControl::next(PictureSize full, int rounds) const {
   };
   const auto too_slow = [&] {
     const auto pixel_seconds = expected_pixel_seconds(divisor);
-    const double budget = divisor == 2 ? kForHalf * kInteractive : kInteractive;
+    const double budget = divisor == 2 ? kForHalf * seconds : seconds;
     return !pixel_seconds || *pixel_seconds * static_cast<double>(size().width * size().height) > budget;
   };
   while (divisor < kSmallest && too_slow()) ++divisor;
@@ -43,9 +43,9 @@ std::optional<double> QualityControl::expected_pixel_seconds(int divisor) const 
   return std::nullopt;
 }
 
-void QualityControl::drawn(const Pass& pass, double seconds) {
-  if (pass.moving) {
-    const double measured = seconds / static_cast<double>(pass.size.width * pass.size.height);
+void QualityControl::drawn(const Pass& pass, std::optional<double> seconds) {
+  if (pass.moving && seconds) {
+    const double measured = *seconds / static_cast<double>(pass.size.width * pass.size.height);
     auto& known = pixel_seconds_[static_cast<std::size_t>(pass.divisor)];
     // Half of the change: one slow picture on a busy machine does not make the next ones coarse. A view that
     // became slower is so at all sizes.

@@ -23,6 +23,8 @@ struct Pass {
 class QualityControl {
  public:
   static constexpr double kInteractive = 0.033;  // seconds a picture may take while something moves
+  // The same while a surface plays: most of the processor's time belongs to the solver.
+  static constexpr double kPlaying = 0.007;
   static constexpr double kForHalf = 1.5;  // a picture of half the pixels a side may take so many times it
   static constexpr int kSmallest = 4;      // a moving picture has at least a fourth of the pixels a side
   static constexpr int kRounds = 9;  // pictures of a still view, at most, whose mean is the finished one
@@ -30,11 +32,12 @@ class QualityControl {
   // The view (camera, level set, anything) has changed: the next picture keeps to the budget.
   void moved();
   // The next picture for a view of `full` physical pixels; none when the picture is finished, after `rounds`
-  // still ones.
-  [[nodiscard]] std::optional<Pass> next(PictureSize full, int rounds = kRounds) const;
-  // That picture was drawn and took so long. If the view moved meanwhile, it does not count for the new
-  // one.
-  void drawn(const Pass& pass, double seconds);
+  // still ones. One that moves may take so many seconds.
+  [[nodiscard]] std::optional<Pass> next(PictureSize full, int rounds = kRounds,
+                                         double seconds = kInteractive) const;
+  // That picture was drawn and took so long; unset: it was kept for the most part, and says nothing of
+  // pixels. If the view moved meanwhile, it does not count for the new one.
+  void drawn(const Pass& pass, std::optional<double> seconds);
 
  private:
   // Seconds that a moving picture of that divisor is expected to take for each of its pixels; none at first.

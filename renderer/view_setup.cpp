@@ -80,4 +80,9 @@ glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size) {
   return glm::translate(glm::dmat4(1.0), glm::dvec3(2.0 * pixels / glm::dvec2(size.width, size.height), 0.0));
 }
 
+glm::dmat4 voxel_from_view(const VolumeView& view, const Geometry& geometry, PictureSize size) {
+  return view.camera.voxel_from_view(geometry, size.aspect()) *
+         moved_by(offset_of_round(view.quality.round), size);
+}
+
 }  // namespace tidemark::renderer

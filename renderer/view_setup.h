@@ -36,5 +36,7 @@ VoxelPlane clip_plane_in_voxels(const ClipPlane& plane, const Geometry& geometry
 glm::dvec2 offset_of_round(int round);
 // Moves a view by so many pixels of a picture.
 glm::dmat4 moved_by(glm::dvec2 pixels, PictureSize size);
+// Of the round's picture of that size, to voxel coordinates.
+glm::dmat4 voxel_from_view(const VolumeView& view, const Geometry& geometry, PictureSize size);
 
 }  // namespace tidemark::renderer

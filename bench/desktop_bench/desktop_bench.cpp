@@ -70,23 +70,52 @@ void begin(engine::CaseProxy& proxy) {
   proxy.begin(start);
 }
 
-void measure_rates(ui::CaseWindow& window, double seconds) {
+struct Rates {
+  double steps = 0.0;     // a second
+  double pictures = 0.0;  // of each view a second
+};
+
+// The surface is placed anew and plays so many steps, in which it still moves: at rest a step costs nothing.
+Rates rates_in_motion(ui::CaseWindow& window, std::int64_t steps, bool seen) {
   engine::CaseProxy& proxy = window.proxy();
-  std::vector<std::uint64_t> before;
-  for (ui::PictureView* view : window.views()) before.push_back(view->feed().shown().number);
-  const std::int64_t step = proxy.state().step;
+  const auto views = window.views();
+  window.window()->setVisible(seen);
+  begin(proxy);
+  wait_for([&] { return proxy.state().begun && proxy.state().step == 0; }, 60000);
+  wait(300);
+  const std::uint64_t before = views.front()->feed().shown().number;
   QElapsedTimer since;
   since.start();
-  wait(static_cast<int>(seconds * 1000.0));
+  bool ended = false;
+  proxy.play_for(steps, false, [&](bool) { ended = true; });
+  wait_for([&] { return ended; }, 60000);
   const double passed = static_cast<double>(since.nsecsElapsed()) / 1e9;
-  std::size_t index = 0;
-  for (ui::PictureView* view : window.views()) {
-    const auto pictures = static_cast<double>(view->feed().shown().number - before[index++]);
-    std::printf("  %-20s %4d x %4d  %5.1f pictures/s\n", qPrintable(view->title()), view->width(),
-                view->height(), pictures / passed);
+  const auto pictures = static_cast<double>(views.front()->feed().shown().number - before);
+  return {static_cast<double>(steps) / passed, pictures / passed};
+}
+
+void measure_rates(ui::CaseWindow& window, std::int64_t steps) {
+  constexpr int kRounds = 5;
+  std::vector<Rates> seen;
+  std::vector<Rates> alone;
+  for (int round = 0; round < kRounds; ++round) {
+    alone.push_back(rates_in_motion(window, steps, false));
+    seen.push_back(rates_in_motion(window, steps, true));
   }
-  std::printf("  steps                %12.0f steps/s\n",
-              static_cast<double>(proxy.state().step - step) / passed);
+  const auto median = [](const std::vector<Rates>& rates, double Rates::*which) {
+    std::vector<double> values;
+    for (const Rates& one : rates) values.push_back(one.*which);
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+  };
+  for (ui::PictureView* view : window.views()) {
+    std::printf("  %-20s %4d x %4d\n", qPrintable(view->title()), view->width(), view->height());
+  }
+  const double steps_seen = median(seen, &Rates::steps);
+  const double steps_alone = median(alone, &Rates::steps);
+  std::printf("  %lld steps: %.0f pictures/s of each, %.0f steps/s; while no view is seen %.0f, ratio %.2f\n",
+              static_cast<long long>(steps), median(seen, &Rates::pictures), steps_seen, steps_alone,
+              steps_seen / steps_alone);
 }
 
 // From a change of the view to the first picture of it.
@@ -157,7 +186,7 @@ int main(int argc, char** argv) {
                      {"open", "a study to open, and nothing more", "folder or file"},
                      {"phantom", "which synthetic study", "kind", "tumour"},
                      {"no-opengl", "start without OpenGL"},
-                     {"seconds", "how long rates are measured", "s", "5"}});
+                     {"steps", "in which rates are measured", "n", "600"}});
   parser.process(application);
 
   ui::apply_theme(application, ui::Theme::light);
@@ -184,10 +213,9 @@ int main(int argc, char** argv) {
   if (!wait_for([&] { return proxy.state().begun; }, 60000)) return 1;
   wait(500);
   application.longest_ms = 0.0;
-  proxy.play();
-  wait(1000);
   std::printf("%s, %s, playing:\n", qPrintable(parser.value("phantom")), qPrintable(proxy.state().executor));
-  measure_rates(*window.active_case(), parser.value("seconds").toDouble());
+  measure_rates(*window.active_case(), parser.value("steps").toLongLong());
+  proxy.play();
   measure_latency(*window.active_case());
   proxy.pause();
   std::printf("  longest event of the user interface %.0f ms\n", application.longest_ms);

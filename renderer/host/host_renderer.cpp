@@ -1,5 +1,6 @@
 #include "renderer/host/host_renderer.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "renderer/host/slice_painter.h"
@@ -94,9 +95,22 @@ VolumeView HostRenderer::resolved(const VolumeView& asked) {
 }
 
 Result<Picture> HostRenderer::draw(const VolumeView& view, PictureSize size, const Progress& progress) {
-  Picture picture{size.width, size.height,
-                  std::vector<std::uint8_t>(static_cast<std::size_t>(4 * size.width * size.height))};
-  TIDEMARK_TRY(paint_volume(scene_, resolved(view), picture, {}, threads_, progress));
+  LastPictures::Drawn drawn{resolved(view), size, scene_.phi.revision(), {}};
+  const bool can_keep = LastPictures::can_keep(scene_, drawn.view);
+  const LastPictures::Drawn* const last = can_keep ? last_pictures_.of(drawn.view, size) : nullptr;
+  if (last != nullptr) {
+    drawn.picture = last->picture;
+    const auto changed = changed_pixels(scene_, *last);
+    const auto count = std::count(changed.begin(), changed.end(), std::uint8_t{1});
+    drawn.picture.painted = static_cast<double>(count) / static_cast<double>(changed.size());
+    TIDEMARK_TRY(paint_volume(scene_, drawn.view, drawn.picture, changed, threads_, progress));
+  } else {
+    drawn.picture = {size.width, size.height,
+                     std::vector<std::uint8_t>(static_cast<std::size_t>(4 * size.width * size.height))};
+    TIDEMARK_TRY(paint_volume(scene_, drawn.view, drawn.picture, {}, threads_, progress));
+  }
+  Picture picture = drawn.picture;
+  if (can_keep) last_pictures_.keep(std::move(drawn));
   return picture;
 }
 

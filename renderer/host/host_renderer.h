@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/host/host_scene.h"
+#include "renderer/host/last_pictures.h"
 #include "renderer/renderer.h"
 
 namespace tidemark::renderer {
@@ -32,8 +33,7 @@ class HostRenderer final : public Renderer {
   using Renderer::draw;
   Result<Picture> draw(const VolumeView& view, PictureSize size, const Progress& progress) override;
   Result<Picture> draw(const SliceView& view, PictureSize size, const Progress& progress) override;
-  // Means of four differ from one another no more than means of eight do
-  // (docs/decisions/024-host-renderer.md).
+  // A lattice of rays (docs/decisions/024-host-renderer.md).
   [[nodiscard]] int still_rounds() const override { return 3; }
   // After the first round only uneven_pixels() of the mean get another ray.
   Status add_round(const VolumeView& view, PictureSize size, PictureMean& mean,
@@ -47,6 +47,7 @@ class HostRenderer final : public Renderer {
   std::shared_ptr<const Volume> volume_;
   HostScene scene_;
   ThreadPool threads_;
+  LastPictures last_pictures_;
   std::optional<std::pair<float, float>> common_range_;  // of the source, once it is needed
 };
 

@@ -21,6 +21,7 @@ PhiPages::PhiPages(const PageLayout& layout, double band)
   values_.resize(static_cast<std::size_t>(layout.page_count()));
   states_.resize(values_.size());
   was_resident_.resize(values_.size());
+  changed_.resize(values_.size());
   begin(band);
   std::fill(values_.begin(), values_.end(), outside_.data());
 }
@@ -30,6 +31,8 @@ void PhiPages::begin(double band) {
   const float limit = static_cast<float>(band);
   if (limit == band_) return;
   band_ = limit;
+  seen_.reset();
+  copy_.reset();
   outside_.assign(static_cast<std::size_t>(layout_.voxels_per_page()), -limit);
   inside_.assign(outside_.size(), limit);
 }
@@ -56,13 +59,18 @@ void PhiPages::mark(std::span<const std::int64_t> quiet) {
 
 void PhiPages::show(std::shared_ptr<const solver::Field> phi, std::span<const std::int64_t> quiet) {
   begin(phi->band);
+  // Two copies have what is the same at the same place, as long as both are there.
+  const bool comparable = copy_ != nullptr;
   for (std::size_t page = 0; page < values_.size(); ++page) {
     const auto number = static_cast<std::int64_t>(page);
     const float* const stored = phi->pages.values(number);
     const bool is_inside = phi->pages.kind(number) == solver::Field::Kind::inside;
+    const float* const former = values_[page];
     values_[page] = stored != nullptr ? stored : is_inside ? inside_.data() : outside_.data();
+    if (!comparable || values_[page] != former) changed_[page] = revision_;
   }
   copy_ = std::move(phi);
+  seen_.reset();
   mark(quiet);
 }
 
@@ -74,7 +82,10 @@ void PhiPages::show(const solver::PageView& view, const std::optional<std::vecto
     values_[page] = entry == solver::kOutsidePage  ? outside_.data()
                     : entry == solver::kInsidePage ? inside_.data()
                                                    : view.phi(entry);
+    const auto number = static_cast<std::int64_t>(page);
+    if (!seen_ || view.memory->has_changed_since(number, *seen_)) changed_[page] = revision_;
   }
+  seen_ = view.memory->end_moment();
   copy_.reset();
   if (quiet) mark(*quiet);
 }

@@ -43,8 +43,11 @@ class PhiPages {
   [[nodiscard]] PageState state(int page) const { return states_[static_cast<std::size_t>(page)]; }
   // In ascending order.
   [[nodiscard]] std::vector<std::int64_t> resident_pages() const;
-  // Counts what was shown.
+  // Counts what was shown, and says whether a page is another one since.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
+  [[nodiscard]] bool has_changed_since(int page, std::uint64_t revision) const {
+    return changed_[static_cast<std::size_t>(page)] > revision;
+  }
 
   // Clamped to the volume.
   [[nodiscard]] float at(glm::ivec3 voxel) const {
@@ -79,7 +82,9 @@ class PhiPages {
   std::vector<PageState> states_;
   std::vector<bool> was_resident_;
   std::shared_ptr<const solver::Field> copy_;
+  std::optional<solver::ChangedPages::Moment> seen_;  // of the executor's memory; unset: a copy was shown
   std::uint64_t revision_ = 0;
+  std::vector<std::uint64_t> changed_;  // by virtual page: the first revision with what it has now
 };
 
 }  // namespace tidemark::renderer

@@ -40,8 +40,7 @@ RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
       shows_labels_(scene.labels.pages().show_at(view.label_opacity)),
       volume_(scene.source.size()),
       spacing_(scene.geometry().spacing_mm),
-      voxel_from_view_(view.camera.voxel_from_view(scene.geometry(), size.aspect()) *
-                       moved_by(offset_of_round(view.quality.round), size)),
+      voxel_from_view_(voxel_from_view(view, scene.geometry(), size)),
       direction_(glm::normalize(glm::vec3(voxel_from_view_[2]))),
       mm_(glm::length(direction_ * spacing_)),
       step_(static_cast<float>(view.quality.step_voxels)),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/host/page_kinds.h"
+#include "renderer/host/page_shadows.h"
 #include "renderer/picture.h"
 
 namespace tidemark::renderer {
@@ -21,13 +22,11 @@ class RaySpans {
 
   // Nearest and farthest, of the block with that pixel; the nearest is behind the farthest where nothing is.
   [[nodiscard]] glm::vec2 at(std::int64_t x, std::int64_t y) const {
-    return spans_[static_cast<std::size_t>(x / kBlock + columns_ * (y / kBlock))];
+    return spans_[static_cast<std::size_t>(x / PageShadows::kBlock + columns_ * (y / PageShadows::kBlock))];
   }
 
  private:
-  static constexpr std::int64_t kBlock = 8;  // pixels a side
-
-  std::int64_t columns_;
+  std::int64_t columns_ = 0;
   std::vector<glm::vec2> spans_;
 };
 

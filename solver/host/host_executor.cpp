@@ -309,6 +309,7 @@ MemoryReport HostExecutor::memory() const {
 }
 
 bool HostExecutor::page_view(PageView& view) const {
+  quiet_.note_changes();
   view.memory = &pages_.memory();
   view.band = constants_.band;
   view.pages = pages_.phi(0);

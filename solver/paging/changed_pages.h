@@ -1,35 +1,54 @@
-// The virtual pages that have changed since they were last asked for.
+// The virtual pages that have changed: all since they were last asked for, and each by when it did.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tidemark::solver {
 
 class ChangedPages {
  public:
-  // Of a table of so many virtual pages, none of them changed.
-  explicit ChangedPages(std::int64_t pages) : is_listed_(static_cast<std::size_t>(pages), false) {}
+  // A moment in the life of all page tables of the program; later ones are greater.
+  using Moment = std::uint64_t;
+
+  // Of a table of so many virtual pages, none of them changed. For those who know only tables from before,
+  // all are.
+  explicit ChangedPages(std::int64_t pages)
+      : taken_at_(next_moment()),
+        now_(next_moment()),
+        changed_at_(static_cast<std::size_t>(pages), taken_at_) {}
 
   void add(std::int64_t page) {
-    const auto at = static_cast<std::size_t>(page);
-    if (is_listed_[at]) return;
-    is_listed_[at] = true;
-    listed_.push_back(page);
+    Moment& at = changed_at_[static_cast<std::size_t>(page)];
+    if (at <= taken_at_) listed_.push_back(page);
+    at = now_;
   }
 
-  // Calls visit(page) for each of them, in any order; then there are none.
+  // Calls visit(page) for each of them since the last call, in any order.
   template <class Visit>
   void take(const Visit& visit) {
-    for (const std::int64_t page : listed_) {
-      visit(page);
-      is_listed_[static_cast<std::size_t>(page)] = false;
-    }
+    for (const std::int64_t page : listed_) visit(page);
     listed_.clear();
+    taken_at_ = end_moment();
+  }
+
+  // Ends the present moment: what changes from here on has changed since it.
+  Moment end_moment() { return std::exchange(now_, next_moment()); }
+  [[nodiscard]] bool has_changed_since(std::int64_t page, Moment moment) const {
+    return changed_at_[static_cast<std::size_t>(page)] > moment;
   }
 
  private:
-  std::vector<bool> is_listed_;
+  static Moment next_moment() {
+    static std::atomic<Moment> last = 0;
+    return ++last;
+  }
+
+  Moment taken_at_;
+  Moment now_;
+  std::vector<Moment> changed_at_;
   std::vector<std::int64_t> listed_;
 };
 

@@ -99,6 +99,13 @@ class PagedMemory {
     if (changed_) changed_->take(visit);
   }
 
+  // The same for others who look now and then: what changes from here on has changed since the moment that
+  // this returns. In memory that announces nothing everything has.
+  [[nodiscard]] ChangedPages::Moment end_moment() const { return changed_ ? changed_->end_moment() : 0; }
+  [[nodiscard]] bool has_changed_since(std::int64_t page, ChangedPages::Moment moment) const {
+    return !changed_ || changed_->has_changed_since(page, moment);
+  }
+
   // Of the fields, of the tables and lists, and the most pages that were resident at once.
   [[nodiscard]] std::int64_t field_bytes() const { return table_.capacity() * page_bytes_; }
   [[nodiscard]] std::int64_t table_bytes() const { return table_.bytes(); }

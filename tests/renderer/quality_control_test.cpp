@@ -125,6 +125,36 @@ class QualityControlTest : public QObject {
     QVERIFY(differing > 0);  // some were left out
   }
 
+  // A surface that plays leaves a picture less time than a user does who turns it.
+  void a_picture_keeps_to_the_seconds_that_it_is_given() {
+    renderer::QualityControl control;
+    constexpr double kPixel = 0.001 / (128.0 * 128.0);
+    const auto width_within = [&](double seconds) {
+      control.moved();
+      const renderer::Pass pass = *control.next({512, 512}, 3, seconds);
+      control.drawn(pass, kPixel * static_cast<double>(pass.size.width * pass.size.height));
+      return static_cast<int>(pass.size.width);
+    };
+    for (int i = 0; i < 5; ++i) width_within(renderer::QualityControl::kInteractive);
+    QCOMPARE(width_within(renderer::QualityControl::kInteractive), 512);
+    QCOMPARE(width_within(renderer::QualityControl::kPlaying), 256);
+    QCOMPARE(width_within(0.001), 128);
+    QCOMPARE(width_within(renderer::QualityControl::kInteractive), 512);
+  }
+
+  // What was kept from the last picture says nothing of how long pixels take.
+  void a_picture_without_a_time_changes_no_size() {
+    renderer::QualityControl control;
+    for (int i = 0; i < 3; ++i) draw_moving(control, 0.040, 1.0);
+    const int width = draw_moving(control, 0.040, 1.0);
+    for (int i = 0; i < 20; ++i) {
+      control.moved();
+      const renderer::Pass pass = *control.next({512, 512});
+      QCOMPARE(pass.size.width, width);
+      control.drawn(pass, std::nullopt);
+    }
+  }
+
   void however_slow_a_picture_is_it_is_not_smaller_than_a_fourth() {
     renderer::QualityControl control;
     for (int i = 0; i < 5; ++i) {

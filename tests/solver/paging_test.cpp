@@ -99,6 +99,8 @@ void check_memory(Index<kDimensions> size, Index<kDimensions> shape) {
       return steps[memory.physical(wanted.first)] == wanted.second;
     });
   };
+  std::set<std::int64_t> changed_since;  // what one who looks now and then has not seen
+  auto moment = memory.end_moment();
   for (int change = 0; change < 1500; ++change) {
     const std::int64_t number = static_cast<std::int64_t>(random()) % voxels;
     const Index<kDimensions> voxel = voxel_at<kDimensions>(size, number);
@@ -106,6 +108,7 @@ void check_memory(Index<kDimensions> size, Index<kDimensions> shape) {
     const solver::PhysicalPage before = memory.physical(page);
     QCOMPARE(memory.physical(layout.page_coordinates(page)), before);
     changed.insert(page);
+    changed_since.insert(page);
     if (solver::is_static_page(before) && random() % 4 == 0) {
       memory.set_static(page, random() % 2 == 0);
       fill_wanted(page, memory.physical(page) == solver::kInsidePage);
@@ -131,6 +134,13 @@ void check_memory(Index<kDimensions> size, Index<kDimensions> shape) {
       ++wanted_steps[page];
       memory.note_change(page);
     }
+    if ((change + 1) % 70 == 0) {
+      for (std::int64_t it = 0; it < layout.page_count(); ++it) {
+        QCOMPARE(memory.has_changed_since(it, moment), changed_since.contains(it));
+      }
+      changed_since.clear();
+      moment = memory.end_moment();
+    }
     if ((change + 1) % 250 != 0) continue;
     QVERIFY(everything_is_there());
     QCOMPARE(failure(memory.table().validate()), QString());
@@ -139,6 +149,10 @@ void check_memory(Index<kDimensions> size, Index<kDimensions> shape) {
     QVERIFY(announced == changed);
     changed.clear();
   }
+  // Whoever knows another memory alone, whose time has passed, finds everything changed.
+  solver::PagedMemory<kDimensions> newer(layout, std::int64_t{1} << 30);
+  newer.announce_changes();
+  QVERIFY(newer.has_changed_since(0, moment) && newer.has_changed_since(layout.page_count() - 1, moment));
   // To full, and to empty.
   for (std::int64_t page = 0; page < layout.page_count(); ++page) {
     if (solver::is_static_page(memory.physical(page))) QVERIFY(memory.make_resident(page));

@@ -262,6 +262,12 @@ void PictureView::showEvent(QShowEvent* event) {
   follow_forces();
 }
 
+// A level set that plays is drawn for those views alone that somebody sees.
+void PictureView::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  feed_.withdraw();
+}
+
 bool PictureView::event(QEvent* event) {
   // In a gesture keys are the gesture's, before they are those of actions.
   if (event->type() == QEvent::ShortcutOverride &&

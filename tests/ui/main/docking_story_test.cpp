@@ -4,6 +4,7 @@
 #include <QFile>
 #include <QMdiSubWindow>
 #include <QToolButton>
+#include <map>
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
@@ -19,6 +20,7 @@ class DockingStoryTest : public QObject {
   void every_layout_shows_its_views();
   void a_view_is_maximised_by_a_double_click_and_back();
   void a_closed_view_comes_back();
+  void views_that_nobody_sees_take_no_time_from_the_surface();
   void views_keep_their_shares_of_a_window();
   void a_session_brings_back_all_views_data();
   void a_session_brings_back_all_views();
@@ -255,6 +257,40 @@ void DockingStoryTest::a_closed_view_comes_back() {
   desktop.wait_until_idle();
   QVERIFY(window.active_view());
   QVERIFY(shows_a_picture(*window.active_view()));
+}
+
+void DockingStoryTest::views_that_nobody_sees_take_no_time_from_the_surface() {
+  Desktop desktop(story_executor(), {1000, 700});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  desktop.proxy().set_pause_at_convergence(false);
+  desktop.press(Qt::Key_W);  // a double click of the sphere tool places two
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  const auto click_twice = [&] { QTest::mouseDClick(axial, Qt::LeftButton, {}, axial->rect().center()); };
+  click_twice();
+  ui::CaseWindow& window = *desktop.window().active_case();
+  QVERIFY(Desktop::wait_for([&] { return visible(window).size() == 1; }));
+  desktop.wait_until_idle();
+  const auto number_of = [](const ui::PictureView* view) { return view->feed().shown().number; };
+  std::map<ui::PictureView*, std::uint64_t> before;
+  for (ui::PictureView* view : window.views()) before[view] = number_of(view);
+  QCOMPARE(before.size(), std::size_t{3});
+  desktop.press(Qt::Key_P);
+  QVERIFY(Desktop::wait_for([&] { return number_of(axial) > before[axial] + 5; }));
+  desktop.press(Qt::Key_P);
+  QVERIFY(Desktop::wait_for([&] { return !desktop.state().playing; }));
+  desktop.wait_until_idle();
+  for (ui::PictureView* view : window.views()) {
+    if (view != axial) QCOMPARE(number_of(view), before[view]);
+  }
+  // Back in sight they show what has become of it.
+  click_twice();
+  QVERIFY(Desktop::wait_for([&] { return visible(window).size() == 3; }));
+  desktop.wait_until_idle();
+  for (ui::PictureView* view : window.views()) {
+    QCOMPARE(view->feed().shown().step, desktop.state().step);
+    QVERIFY(shows_a_picture(*view));
+  }
 }
 
 void DockingStoryTest::a_panel_rests_behind_a_tab_and_keeps_its_size() {

@@ -1,0 +1,38 @@
+// The last volume renderings: the next one of the same view keeps what no changed page of phi is in front of.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/host/host_scene.h"
+#include "renderer/picture.h"
+#include "renderer/views.h"
+
+namespace tidemark::renderer {
+
+class LastPictures {
+ public:
+  struct Drawn {
+    VolumeView view;  // resolved()
+    PictureSize size;
+    std::uint64_t phi = 0;  // PhiPages::revision()
+    Picture picture;
+  };
+
+  // Whether phi's pages alone decide what changes in the view: no labels, and no map, whose pages change by
+  // themselves.
+  [[nodiscard]] static bool can_keep(const HostScene& scene, const VolumeView& view);
+
+  // The last one of a view that can be kept; null: none.
+  [[nodiscard]] const Drawn* of(const VolumeView& view, PictureSize size) const;
+  void keep(Drawn drawn);
+
+ private:
+  std::vector<Drawn> drawn_;  // the newest last
+};
+
+// For each pixel whether a page that has changed since `drawn` may show in it.
+[[nodiscard]] std::vector<std::uint8_t> changed_pixels(const HostScene& scene,
+                                                       const LastPictures::Drawn& drawn);
+
+}  // namespace tidemark::renderer
