@@ -97,7 +97,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status advance(std::int64_t steps, const Progress& progress);
   [[nodiscard]] bool may_rest() const { return pause_at_convergence_ && meter_.converged(); }
   Status change_executor(solver::ExecutorKind kind);
-  void join(std::weak_ptr<LockStep> group) { group_ = std::move(group); }
+  // Leaves the group that it is in; none: it plays alone.
+  void join(std::weak_ptr<LockStep> group);
 
   // A file holds the case at that position of its history.
   void mark_saved(std::uint64_t position);

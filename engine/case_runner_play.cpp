@@ -12,6 +12,11 @@ void CaseRunner::set_playing(bool playing) {
   play_alone(playing);
 }
 
+void CaseRunner::join(std::weak_ptr<LockStep> group) {
+  if (const auto former = group_.lock()) former->remove(*this);
+  group_ = std::move(group);
+}
+
 void CaseRunner::play_alone(bool playing) {
   const bool begins = playing && !playing_;
   stroke_steps_ = 0;

@@ -28,8 +28,12 @@ std::pair<std::int64_t, std::int64_t> ends_of(const std::vector<std::shared_ptr<
 
 void LockStep::add(const std::shared_ptr<CaseRunner>& runner) {
   if (const Members others = members(); !others.empty()) runner->set_pace_alone(others.front()->pace());
-  members_.push_back(runner);
   runner->join(weak_from_this());
+  members_.push_back(runner);
+}
+
+void LockStep::remove(const CaseRunner& runner) {
+  std::erase_if(members_, [&](const auto& member) { return member.lock().get() == &runner; });
 }
 
 LockStep::Members LockStep::members() {

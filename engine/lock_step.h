@@ -16,6 +16,7 @@ class CaseRunner;
 class LockStep : public std::enable_shared_from_this<LockStep> {
  public:
   void add(const std::shared_ptr<CaseRunner>& runner);
+  void remove(const CaseRunner& runner);
 
   // A turn of `runner`: computes the steps up to the group's next goal, none when it is there already and
   // others are not.

@@ -362,6 +362,28 @@ class CaseProxyTest : public QObject {
     engine::CaseProxy::play_in_lock_step({});
   }
 
+  // A lesson plays one of them by itself.
+  void a_case_that_leaves_the_others_does_not_hold_them() {
+    Fixture fixture;
+    engine::CaseProxy other(fixture.engine, ball_study(), solver::ExecutorKind::host);
+    fixture.begin();
+    document::Start start;
+    start.seeds.push_back({fixture.middle(), 4.0});
+    other.begin(start);
+    fixture.wait_until_idle();
+    engine::CaseProxy::play_in_lock_step({&fixture.proxy, &other});
+    bool ended = false;
+    other.play_for(3, false, [&](bool) { ended = true; });
+    QTRY_VERIFY_WITH_TIMEOUT(ended, kPatience);
+    QVERIFY(!other.in_lock_step());
+    fixture.proxy.set_pause_at_convergence(false);
+    fixture.proxy.play();
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().step >= 20, kPatience);
+    fixture.proxy.pause();
+    fixture.wait_until_idle();
+    QCOMPARE(other.state().step, 3);
+  }
+
   void a_session_that_goes_cancels_what_runs() {
     engine::Engine engine(false);
     auto proxy = std::make_unique<engine::CaseProxy>(engine, ball_study(), solver::ExecutorKind::host);

@@ -82,20 +82,16 @@ void for_tiles(const VoxelBox& box, Visit visit) {
   }
 }
 
-// Where the middle voxels of cells lie in a box that the cells divide from its first voxel on.
-std::vector<std::int64_t> middles(Index3 cells, Index3 step, Index3 box) {
-  std::vector<std::int64_t> places;
-  places.reserve(static_cast<std::size_t>(cells.x * cells.y * cells.z));
-  Index3 cell;
-  for (cell.z = 0; cell.z < cells.z; ++cell.z) {
-    for (cell.y = 0; cell.y < cells.y; ++cell.y) {
-      for (cell.x = 0; cell.x < cells.x; ++cell.x) {
-        const Index3 v = glm::min(cell * step + step / Index3(2), box - Index3(1));
-        places.push_back(number_in(box, v));
-      }
+// The middle voxels of cells of `step` voxels that divide a box from its first voxel on.
+VoxelLattice middles(Index3 cells, Index3 step, const VoxelBox& box) {
+  VoxelLattice lattice;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::int64_t cell = 0; cell < cells[axis]; ++cell) {
+      const std::int64_t middle = std::min(cell * step[axis] + step[axis] / 2, box.size[axis] - 1);
+      lattice[static_cast<std::size_t>(axis)].push_back(box.first[axis] + middle);
     }
   }
-  return places;
+  return lattice;
 }
 
 // The forest's probabilities of cells, each by the voxel in its middle.
@@ -103,22 +99,15 @@ void write_prior(const Features& features, const Forest& forest, const WalkerGri
                  std::int64_t last, float* inside) {
   ForestEvaluator evaluator(forest);
   std::vector<float> values;
-  std::vector<float> of_cells;
   std::vector<double> probabilities;
   const VoxelBox all{Index3(0, 0, first), Index3(grid.size.x, grid.size.y, last - first)};
   for_tiles(all, [&](const VoxelBox& cells) {
     const VoxelBox voxels =
         common({grid.box.first + cells.first * grid.step, cells.size * grid.step}, grid.box);
-    values.resize(static_cast<std::size_t>(voxels.voxels() * features.count()));
-    features.evaluate(voxels, values.data());
-    const std::vector<std::int64_t> places = middles(cells.size, grid.step, voxels.size);
-    of_cells.clear();
-    for (int f = 0; f < features.count(); ++f) {
-      const float* feature = values.data() + f * voxels.voxels();
-      for (const std::int64_t place : places) of_cells.push_back(feature[place]);
-    }
-    probabilities.resize(places.size());
-    evaluator.evaluate(of_cells.data(), features.count(), cells.voxels(), probabilities.data());
+    values.resize(static_cast<std::size_t>(cells.voxels() * features.count()));
+    features.evaluate(middles(cells.size, grid.step, voxels), values.data());
+    probabilities.resize(static_cast<std::size_t>(cells.voxels()));
+    evaluator.evaluate(values.data(), features.count(), cells.voxels(), probabilities.data());
     copy_box(probabilities.data(), cells, all, inside);
   });
 }

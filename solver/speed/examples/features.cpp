@@ -1,20 +1,25 @@
 #include "solver/speed/examples/features.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace tidemark::solver {
 namespace {
 
-// Where the voxels of a box lie between_nodes nodes, along one axis.
+std::int64_t count_of(const VoxelLattice& lattice) {
+  return std::ssize(lattice[0]) * std::ssize(lattice[1]) * std::ssize(lattice[2]);
+}
+
+// Where voxels lie between nodes, along one axis.
 struct BetweenNodes {
   std::vector<std::int64_t> node;  // the one before, counted from the block's first
   std::vector<float> weight;       // of the one after
 };
 
-BetweenNodes between_nodes(std::int64_t first, std::int64_t count, std::int64_t step,
+BetweenNodes between_nodes(const std::vector<std::int64_t>& voxels, std::int64_t step,
                            std::int64_t first_node) {
   BetweenNodes result;
-  for (std::int64_t i = first; i < first + count; ++i) {
+  for (const std::int64_t i : voxels) {
     result.node.push_back(i / step - first_node);
     result.weight.push_back(static_cast<float>(i % step) / static_cast<float>(step));
   }
@@ -47,19 +52,19 @@ void interpolate(const float* nodes, Index3 size, const std::array<BetweenNodes,
 }
 
 // The features of one scale.
-void evaluate_scale(const Volume& volume, const ScaleSpace& space, int scale, const VoxelBox& box,
+void evaluate_scale(const Volume& volume, const ScaleSpace& space, int scale, const VoxelLattice& lattice,
                     float* features) {
   const Index3 step = space.step(scale);
   VoxelBox nodes;
   std::array<BetweenNodes, 3> at;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::int64_t first = box.first[axis] / step[axis];
+    const std::vector<std::int64_t>& voxels = lattice[static_cast<std::size_t>(axis)];
+    const std::int64_t first = voxels.front() / step[axis];
     // A voxel on a node is that node: where there are no others, one node more is not read.
-    const std::int64_t last = (box.first[axis] + box.size[axis] - 2 + step[axis]) / step[axis];
+    const std::int64_t last = (voxels.back() - 1 + step[axis]) / step[axis];
     nodes.first[axis] = first;
     nodes.size[axis] = last - first + 1;
-    at[static_cast<std::size_t>(axis)] =
-        between_nodes(box.first[axis], box.size[axis], step[axis], first - kFeatureReach);
+    at[static_cast<std::size_t>(axis)] = between_nodes(voxels, step[axis], first - kFeatureReach);
   }
   const Moments moments = space.moments(volume, scale, grown(nodes, Index3(kFeatureReach)));
   std::vector<float> of_nodes;
@@ -67,7 +72,7 @@ void evaluate_scale(const Volume& volume, const ScaleSpace& space, int scale, co
   std::vector<float> row;
   for (int feature = 0; feature < kNodeFeatures; ++feature) {
     interpolate(of_nodes.data() + feature * moments.box.voxels(), moments.box.size, at, row,
-                features + feature * box.voxels());
+                features + feature * count_of(lattice));
   }
 }
 
@@ -97,19 +102,30 @@ int Features::count() const {
 }
 
 void Features::evaluate(const VoxelBox& box, float* features) const {
-  const std::int64_t voxels = box.voxels();
+  VoxelLattice lattice;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<std::int64_t>& along = lattice[static_cast<std::size_t>(axis)];
+    along.resize(static_cast<std::size_t>(box.size[axis]));
+    std::iota(along.begin(), along.end(), box.first[axis]);
+  }
+  evaluate(lattice, features);
+}
+
+void Features::evaluate(const VoxelLattice& lattice, float* features) const {
+  const std::int64_t voxels = count_of(lattice);
   for (std::size_t image = 0; image < volumes_.size(); ++image) {
     for (int scale = 0; scale < spaces_[image]->scales(); ++scale) {
-      evaluate_scale(*volumes_[image], *spaces_[image], scale, box, features);
+      evaluate_scale(*volumes_[image], *spaces_[image], scale, lattice, features);
       features += kNodeFeatures * voxels;
     }
   }
   const glm::vec3 spacing(geometry().spacing_mm);
-  for (std::int64_t z = 0; z < box.size.z; ++z) {
-    for (std::int64_t y = 0; y < box.size.y; ++y) {
-      for (std::int64_t x = 0; x < box.size.x; ++x, ++features) {
-        const glm::vec3 position = glm::vec3(box.first + Index3(x, y, z)) * spacing;
+  for (const std::int64_t z : lattice[2]) {
+    for (const std::int64_t y : lattice[1]) {
+      for (const std::int64_t x : lattice[0]) {
+        const glm::vec3 position = glm::vec3(x, y, z) * spacing;
         for (int axis = 0; axis < 3; ++axis) features[axis * voxels] = position[axis];
+        ++features;
       }
     }
   }

@@ -1,6 +1,8 @@
 // The values of a voxel that `examples` learns from: features of all scales of all images, and its place.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -8,6 +10,9 @@
 #include "solver/speed/examples/scale_space.h"
 
 namespace tidemark::solver {
+
+// The voxels at all combinations of places along the axes, each of which ascends.
+using VoxelLattice = std::array<std::vector<std::int64_t>, 3>;
 
 // Features of voxels, for boxes; thread-safe. A voxel's have the same bits in every box.
 class Features {
@@ -20,6 +25,8 @@ class Features {
   [[nodiscard]] const Geometry& geometry() const { return volumes_.front()->geometry; }
   // Writes count() arrays of box.voxels() numbers. The box is small: a few thousand voxels.
   void evaluate(const VoxelBox& box, float* features) const;
+  // The same for voxels that are a few apart.
+  void evaluate(const VoxelLattice& lattice, float* features) const;
   [[nodiscard]] std::int64_t memory() const;  // bytes
 
  private:
