@@ -1,6 +1,6 @@
 // How quick the desktop is while a level set evolves: pictures and steps a second, and the time from a move
 // of the mouse to the picture that shows it. Opens a window: without a screen, run it by xvfb-run -a.
-//   desktop_bench [--executor host|compute|stream] [--phantom tumour] [--seconds 5] [--no-opengl]
+//   desktop_bench [--executor host|compute|stream] [--phantom tumour] [--steps 600] [--no-opengl]
 //   desktop_bench --open STUDY     how long it takes from opening to the first picture of each view
 #include <QApplication>
 #include <QCommandLineParser>

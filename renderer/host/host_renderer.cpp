@@ -96,7 +96,7 @@ VolumeView HostRenderer::resolved(const VolumeView& asked) {
 
 Result<Picture> HostRenderer::draw(const VolumeView& view, PictureSize size, const Progress& progress) {
   LastPictures::Drawn drawn{resolved(view), size, scene_.phi.revision(), {}};
-  const bool can_keep = LastPictures::can_keep(scene_, drawn.view);
+  const bool can_keep = LastPictures::can_keep(scene_, drawn.view, size);
   const LastPictures::Drawn* const last = can_keep ? last_pictures_.of(drawn.view, size) : nullptr;
   if (last != nullptr) {
     drawn.picture = last->picture;

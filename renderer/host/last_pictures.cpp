@@ -8,7 +8,8 @@
 namespace tidemark::renderer {
 namespace {
 
-constexpr std::size_t kMost = 4;  // views of a case in 3D, and sizes of one
+constexpr std::size_t kMost = 4;               // views of a case in 3D, and sizes of one
+constexpr std::int64_t kMostPixels = 1 << 22;  // of a screen; larger pictures are drawn once, for a file
 
 // How far beyond a page a pixel's colour looks, in voxels: occlusion along the normal by up to a band, and
 // slopes there.
@@ -18,9 +19,9 @@ float reach_of(const PhiPages& phi) {
 
 }  // namespace
 
-bool LastPictures::can_keep(const HostScene& scene, const VolumeView& view) {
-  return view.quality.round == 0 && view.colouring == SurfaceColouring::plain &&
-         !scene.labels.pages().show_at(view.label_opacity);
+bool LastPictures::can_keep(const HostScene& scene, const VolumeView& view, PictureSize size) {
+  return size.width * size.height <= kMostPixels && view.quality.round == 0 &&
+         view.colouring == SurfaceColouring::plain && !scene.labels.pages().show_at(view.label_opacity);
 }
 
 const LastPictures::Drawn* LastPictures::of(const VolumeView& view, PictureSize size) const {

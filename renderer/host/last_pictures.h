@@ -19,9 +19,9 @@ class LastPictures {
     Picture picture;
   };
 
-  // Whether phi's pages alone decide what changes in the view: no labels, and no map, whose pages change by
-  // themselves.
-  [[nodiscard]] static bool can_keep(const HostScene& scene, const VolumeView& view);
+  // Whether the picture is one to keep: no larger than a screen, and showing phi alone of what may change. A
+  // map's pages change by themselves.
+  [[nodiscard]] static bool can_keep(const HostScene& scene, const VolumeView& view, PictureSize size);
 
   // The last one of a view that can be kept; null: none.
   [[nodiscard]] const Drawn* of(const VolumeView& view, PictureSize size) const;

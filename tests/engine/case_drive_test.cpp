@@ -9,6 +9,8 @@
 
 namespace tidemark::test::case_drive_test {
 
+constexpr int kPatience = 60'000;  // ms; learning takes long under a sanitizer
+
 class CaseDriveTest : public QObject {
   Q_OBJECT
 
@@ -24,7 +26,7 @@ class CaseDriveTest : public QObject {
     drive.setting.terms = {{"edges", {}}};
     proxy_->set_drive(drive);
     QCOMPARE(proxy_->drive().setting, drive.setting);  // the wish, at once
-    QTRY_VERIFY(proxy_->state().speed && !proxy_->state().speed_waits);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed && !proxy_->state().speed_waits, kPatience);
     QVERIFY(ball_->failures.isEmpty());
     QCOMPARE(proxy_->state().drive.setting, drive.setting);
     const auto first = proxy_->state().speed;
@@ -34,12 +36,12 @@ class CaseDriveTest : public QObject {
       drive.setting.terms.front().values[solver::speed_kind("edges")->parameters.front().name] = sigma;
       proxy_->set_drive(drive, 99);
     }
-    QTRY_VERIFY(proxy_->state().speed != first && !proxy_->state().speed_waits);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed != first && !proxy_->state().speed_waits, kPatience);
     proxy_->undo();
-    QTRY_VERIFY(proxy_->state().drive.setting.terms.front().values.empty());
-    QTRY_VERIFY(!proxy_->state().speed_waits);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().drive.setting.terms.front().values.empty(), kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(!proxy_->state().speed_waits, kPatience);
     proxy_->undo();
-    QTRY_VERIFY(proxy_->state().drive.setting.is_tent());
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().drive.setting.is_tent(), kPatience);
     QVERIFY(!proxy_->state().speed);
     QCOMPARE(proxy_->drive().setting, solver::SpeedSetting());
     QVERIFY(ball_->failures.isEmpty());
@@ -56,18 +58,18 @@ class CaseDriveTest : public QObject {
     document::Drive drive = proxy_->drive();
     drive.setting.terms = {{"regions", {}}};
     proxy_->set_drive(drive);
-    QTRY_VERIFY(proxy_->state().speed && !proxy_->state().speed_waits);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed && !proxy_->state().speed_waits, kPatience);
     QCOMPARE(speed_at(middle), 0.0);  // there is no surface to follow
     document::Start start;
     start.seeds.push_back({middle, 6.0});
     proxy_->begin(start);
-    QTRY_VERIFY(speed_at(middle) > 0.5);
+    QTRY_VERIFY_WITH_TIMEOUT(speed_at(middle) > 0.5, kPatience);
     QVERIFY(speed_at(middle + glm::dvec3(1.8 * kBallRadius, 0.0, 0.0)) < -0.5);
     QCOMPARE(proxy_->state().step, std::int64_t{0});
     // Paint moves the means, before a step does.
     const double before = speed_at(middle);
     proxy_->paint({middle + glm::dvec3(1.2 * kBallRadius, 0.0, 0.0), 8.0}, solver::Brush::add, 7);
-    QTRY_VERIFY(speed_at(middle) != before);
+    QTRY_VERIFY_WITH_TIMEOUT(speed_at(middle) != before, kPatience);
     QCOMPARE(proxy_->state().step, std::int64_t{0});
     proxy_->step(1);
     QTRY_COMPARE(proxy_->state().step, std::int64_t{1});
@@ -84,28 +86,28 @@ class CaseDriveTest : public QObject {
     QVERIFY2(ball_->failures.front().contains("map"), qPrintable(ball_->failures.front()));
     proxy_->play();
     QTRY_COMPARE(ball_->failures.size(), 2);
-    QTRY_VERIFY(!proxy_->state().playing);
+    QTRY_VERIFY_WITH_TIMEOUT(!proxy_->state().playing, kPatience);
     QCOMPARE(proxy_->state().step, std::int64_t{0});
     // With the tent it goes on.
     proxy_->set_drive({});
     proxy_->play();
-    QTRY_VERIFY(proxy_->state().step > 0);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().step > 0, kPatience);
     QCOMPARE(ball_->failures.size(), 2);
   }
 
   void undo_to_another_function_does_not_wait_for_it() {
     ball_->begin();
     proxy_->set_drive(learning(10.0));
-    QTRY_VERIFY(proxy_->state().speed);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed, kPatience);
     const auto first = proxy_->state().speed;
     proxy_->set_drive(learning(200.0));
-    QTRY_VERIFY(proxy_->state().speed != first && !proxy_->state().speed_waits);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed != first && !proxy_->state().speed_waits, kPatience);
     bool seen_without = false;
     connect(proxy_, &engine::CaseProxy::state_changed, this,
             [&] { seen_without |= proxy_->state().speed_waits && !proxy_->state().speed; });
     proxy_->undo();
     proxy_->play();
-    QTRY_VERIFY(proxy_->state().step > 0);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().step > 0, kPatience);
     QVERIFY(seen_without);
     QVERIFY(proxy_->state().speed);
     QCOMPARE(proxy_->state().drive.setting.terms.front().values.at("trees"), 10.0);
@@ -115,7 +117,7 @@ class CaseDriveTest : public QObject {
   void the_source_is_smoothed_while_the_surface_moves() {
     ball_->begin();
     proxy_->set_drive(learning(10.0));
-    QTRY_VERIFY(proxy_->state().speed);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed, kPatience);
     const auto former = proxy_->state().speed;
     proxy_->set_pause_at_convergence(false);
     proxy_->play();
@@ -133,7 +135,7 @@ class CaseDriveTest : public QObject {
     QVERIFY(proxy_->source() != proxy_->study().volume);
     QCOMPARE(reported, 1.0);
     const auto step = proxy_->state().step;
-    QTRY_VERIFY(proxy_->state().step > step);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().step > step, kPatience);
     QVERIFY(ball_->failures.isEmpty());
   }
 
@@ -143,7 +145,7 @@ class CaseDriveTest : public QObject {
     QTRY_COMPARE(proxy_->state().smoothed_mm, 3.0);
     proxy_->smooth_source(1.0);
     proxy_->undo();
-    QTRY_VERIFY(!proxy_->state().smoothing);
+    QTRY_VERIFY_WITH_TIMEOUT(!proxy_->state().smoothing, kPatience);
     ball_->wait_until_idle();
     QTest::qWait(300);
     QCOMPARE(proxy_->state().smoothed_mm, 3.0);
@@ -158,7 +160,7 @@ class CaseDriveTest : public QObject {
     document::Drive drive = learning(10.0);
     drive.setting.terms.push_back({"tent", {}});
     proxy_->set_drive(drive);
-    QTRY_VERIFY(proxy_->state().speed);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed, kPatience);
     const auto former = proxy_->state().speed;
     bool seen_waiting = false;
     connect(proxy_, &engine::CaseProxy::state_changed, this,
@@ -166,7 +168,7 @@ class CaseDriveTest : public QObject {
     solver::Parameters parameters = proxy_->parameters();
     parameters.target += 30.0;
     proxy_->set_parameters(parameters);
-    QTRY_VERIFY(proxy_->state().speed != former);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed != former, kPatience);
     ball_->wait_until_idle();
     QVERIFY(!seen_waiting);
     QCOMPARE(proxy_->state().parameters.target, parameters.target);
@@ -196,7 +198,7 @@ class CaseDriveTest : public QObject {
     drive = learning(10.0);
     drive.strokes = both;
     stroke(drive, both->outside);
-    QTRY_VERIFY(proxy_->state().step == 20 && !proxy_->state().playing);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().step == 20 && !proxy_->state().playing, kPatience);
     QVERIFY(proxy_->state().speed);
     QVERIFY(proxy_->state().phi->at(voxel_at(middle)) > 0.0F);
 
@@ -216,10 +218,10 @@ class CaseDriveTest : public QObject {
     drive.strokes = more;
     const std::size_t entries = proxy_->state().history->size();
     stroke(drive, {far});
-    QTRY_VERIFY(proxy_->state().drive.strokes == drive.strokes);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().drive.strokes == drive.strokes, kPatience);
     ball_->wait_until_idle();
     QVERIFY(!moved_by_former);
-    QTRY_VERIFY(proxy_->state().step > 20 && !proxy_->state().playing);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().step > 20 && !proxy_->state().playing, kPatience);
     ball_->wait_until_idle();
     disconnect(seen);
     QVERIFY(proxy_->state().step <= 40);
@@ -229,7 +231,7 @@ class CaseDriveTest : public QObject {
     // The way back takes both.
     proxy_->undo();
     proxy_->undo();
-    QTRY_VERIFY(proxy_->state().drive.strokes == both);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().drive.strokes == both, kPatience);
     ball_->wait_until_idle();
     QCOMPARE(proxy_->state().step, std::int64_t{20});
     QVERIFY(proxy_->state().phi->at(voxel_at(beside)) <= 0.0F);
@@ -240,7 +242,7 @@ class CaseDriveTest : public QObject {
     ball_->begin();
     const document::Drive drive = learning(200.0);  // takes a while to learn
     const auto rests = [&](std::int64_t step) {
-      QTRY_VERIFY(!proxy_->state().speed_waits);
+      QTRY_VERIFY_WITH_TIMEOUT(!proxy_->state().speed_waits, kPatience);
       ball_->wait_until_idle();
       QTest::qWait(300);
       QCOMPARE(proxy_->state().step, step);
@@ -261,7 +263,7 @@ class CaseDriveTest : public QObject {
     // Play goes on until the surface rests.
     proxy_->take_stroke(another(), {}, 1);
     proxy_->play();
-    QTRY_VERIFY(!proxy_->state().playing && proxy_->state().step > 1);
+    QTRY_VERIFY_WITH_TIMEOUT(!proxy_->state().playing && proxy_->state().step > 1, kPatience);
     // Where nothing learns from strokes, they move nothing.
     ball_->wait_until_idle();
     const std::int64_t step = proxy_->state().step;
@@ -277,14 +279,14 @@ class CaseDriveTest : public QObject {
     document::Drive drive = proxy_->drive();
     drive.setting.terms = {{"edges", {}}};
     proxy_->set_drive(drive);
-    QTRY_VERIFY(proxy_->state().speed);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed, kPatience);
     engine::SpeedSampler sampler;
     const Index3 size = proxy_->volume().geometry.size;
     const Index3 slice(size.x, size.y, 1);
     sampler.ask({proxy_->state().speed, {0, 0, 3}, slice});
     sampler.ask({proxy_->state().speed, {0, 0, size.z / 2}, slice});  // the newest wins
     QVERIFY(!sampler.answer());
-    QTRY_VERIFY(sampler.answer());
+    QTRY_VERIFY_WITH_TIMEOUT(sampler.answer(), kPatience);
     std::vector<double> expected(static_cast<std::size_t>(size.x * size.y));
     proxy_->state().speed->evaluate({{0, 0, size.z / 2}, slice}, expected.data());
     QVERIFY(*sampler.answer() == expected);
