@@ -34,6 +34,16 @@ struct Fixture : BallCase {
   }
 };
 
+// Two balls that play together.
+void begin_in_lock_step(Fixture& fixture, engine::CaseProxy& other) {
+  fixture.begin();
+  document::Start start;
+  start.seeds.push_back({fixture.middle(), 4.0});
+  other.begin(start);
+  fixture.wait_until_idle();
+  engine::CaseProxy::play_in_lock_step({&fixture.proxy, &other});
+}
+
 solver::ExecutorKind executor_of_row() {
   return *solver::executor_named(QTest::currentDataTag());
 }
@@ -345,12 +355,7 @@ class CaseProxyTest : public QObject {
     solver::Parameters smooth = other.parameters();
     smooth.alpha = 0.2;
     other.set_parameters(smooth);
-    fixture.begin();
-    document::Start start;
-    start.seeds.push_back({fixture.middle(), 4.0});
-    other.begin(start);
-    fixture.wait_until_idle();
-    engine::CaseProxy::play_in_lock_step({&fixture.proxy, &other});
+    begin_in_lock_step(fixture, other);
     fixture.proxy.set_pause_at_convergence(false);
     other.set_pause_at_convergence(false);
     fixture.proxy.play();
@@ -366,12 +371,7 @@ class CaseProxyTest : public QObject {
   void a_case_that_leaves_the_others_does_not_hold_them() {
     Fixture fixture;
     engine::CaseProxy other(fixture.engine, ball_study(), solver::ExecutorKind::host);
-    fixture.begin();
-    document::Start start;
-    start.seeds.push_back({fixture.middle(), 4.0});
-    other.begin(start);
-    fixture.wait_until_idle();
-    engine::CaseProxy::play_in_lock_step({&fixture.proxy, &other});
+    begin_in_lock_step(fixture, other);
     bool ended = false;
     other.play_for(3, false, [&](bool) { ended = true; });
     QTRY_VERIFY_WITH_TIMEOUT(ended, kPatience);
