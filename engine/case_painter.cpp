@@ -80,7 +80,7 @@ Result<std::shared_ptr<const solver::Field>> CasePainter::phi(document::Case& do
 
 bool CasePainter::out_of_date(ViewSlot& slot) const {
   const std::lock_guard lock(slot.mutex);
-  return slot.wish &&
+  return slot.seen && slot.wish &&
          (slot.wish_is_new || slot.drawn_phi != phi_revision_ || slot.drawn_look != look_revision_);
 }
 
@@ -175,6 +175,7 @@ Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, bool pl
   bool is_new = false;
   {
     const std::lock_guard lock(slot.mutex);
+    if (!slot.seen) return false;
     wish = slot.wish;
     is_new = std::exchange(slot.wish_is_new, false);
   }
@@ -188,9 +189,11 @@ Result<bool> CasePainter::draw(ViewSlot& slot, document::Case& document, bool pl
   }
   slot.drawn_phi = phi_revision_;
   slot.drawn_look = look_revision_;
-  // A user who turns the camera waits for the picture, whatever plays.
+  // Pictures by the processor take their time from the solver. A user who turns the camera waits for one all
+  // the same.
+  const bool in_passing = plays && !is_new && (*canvas)->gl == nullptr;
   const double seconds =
-      plays && !is_new ? renderer::QualityControl::kPlaying : renderer::QualityControl::kInteractive;
+      in_passing ? renderer::QualityControl::kPlaying : renderer::QualityControl::kInteractive;
   const std::int64_t step = document.level_set().step();
   const Progress progress{nullptr, std::move(stop)};
   if (std::holds_alternative<renderer::VolumeView>(wish->view))
@@ -212,7 +215,7 @@ Result<bool> CasePainter::draw_volume(ViewSlot& slot, const ViewSlot::Wish& wish
   auto shown = paint(slot, view, pass->size, !pass->moving, canvas, progress);
   if (!shown) return pass_on(shown);
   const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  slot.quality.drawn(*pass, shown->painted > 0.5 ? std::optional(passed / shown->painted) : std::nullopt);
+  slot.quality.drawn(*pass, passed, shown->painted);
   const bool more = slot.quality.next(wish.size, rounds).has_value();
   deliver(slot, wish, std::move(*shown), step, !more);
   return more;

@@ -129,6 +129,7 @@ void CaseRunner::report_failure(const Error& error) {
 }
 
 void CaseRunner::phi_changed() {
+  pace_.restart();
   painter_.phi_changed();
   meter_.edited();
   leak_watch_.restart();
@@ -141,6 +142,7 @@ Status CaseRunner::report_edit(Status outcome) {
 }
 
 Status CaseRunner::report_change(Status outcome) {
+  pace_.restart();
   painter_.look_changed();
   meter_.adjusted();
   return outcome;

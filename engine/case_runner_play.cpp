@@ -22,7 +22,7 @@ void CaseRunner::play_alone(bool playing) {
   stroke_steps_ = 0;
   if (begins) case_speed_.try_again();
   if (begins) leak_watch_.forget_alarm();
-  if (begins) pace_.begin_to_play();
+  if (begins) pace_.restart();
   playing_ = playing && case_->level_set().begun();
   if (begins && playing_) post_steps();
   if (!playing_) end_run();

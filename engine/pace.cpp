@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kUpdateSeconds = 0.048;  // from picture to picture: 20 a second are seen as motion
 constexpr double kChunkSeconds = 0.016;   // of steps between two pictures, at least
-// Between two pictures, at most: it should be seen how the surface moves. What has moved for long may move on
-// by a tenth; a surface at rest, whose steps take no time, by no more than the last.
+// Between two pictures, at most: it should be seen how the surface moves. What has played for long may go on
+// by a tenth of its steps, up to kMostSteps: those of a surface at rest take no time.
 constexpr std::int64_t kFirstSteps = 50;
 constexpr std::int64_t kMostSteps = 500;
 
@@ -21,7 +21,7 @@ void Pace::set(double steps_per_second) {
   due_ = Engine::Clock::now();
 }
 
-void Pace::begin_to_play() {
+void Pace::restart() {
   played_ = 0;
 }
 

@@ -15,7 +15,9 @@ class Pace {
   // 0: as many as the pace, or else the time of a picture, allows.
   void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
 
-  void begin_to_play();
+  // The surface begins to move, or moves by something else from now on: its steps may take longer than the
+  // last.
+  void restart();
   // Around each run of steps. What comes between two runs, pictures above all, leaves the next one the rest
   // of the time until a picture is due.
   void begin_steps();
@@ -33,7 +35,7 @@ class Pace {
   Engine::Clock::time_point due_;    // of the steps up to here
   Engine::Clock::time_point ended_;  // the last run of steps
   double between_s_ = 0.0;           // the last two runs
-  std::int64_t played_ = 0;          // steps since it began to play
+  std::int64_t played_ = 0;          // steps since restart()
 };
 
 }  // namespace tidemark::engine

@@ -22,16 +22,19 @@ void PictureFeed::request(const AnyView& view, renderer::PictureSize size,
   {
     const std::lock_guard lock(slot_->mutex);
     ViewSlot::Wish wish{view, size, labels};
-    if (slot_->wish == wish) return;
-    slot_->wish = std::move(wish);
-    slot_->wish_is_new = true;
+    const bool is_new = slot_->wish != wish;
+    if (std::exchange(slot_->seen, true) && !is_new) return;
+    if (is_new) {
+      slot_->wish = std::move(wish);
+      slot_->wish_is_new = true;
+    }
   }
   runner_->view_changed(slot_);
 }
 
 void PictureFeed::withdraw() {
   const std::lock_guard lock(slot_->mutex);
-  slot_->wish.reset();
+  slot_->seen = false;
 }
 
 void PictureFeed::take() {

@@ -46,7 +46,7 @@ class PictureFeed : public QObject {
   // wins; one that is like the last asks for nothing.
   void request(const AnyView& view, renderer::PictureSize size,
                const std::shared_ptr<const document::Labels>& labels = nullptr);
-  // Nothing is drawn until the next request; what was shown last stays.
+  // Nobody sees the view: nothing is drawn until the next request, and what was shown last stays.
   void withdraw();
   [[nodiscard]] const ShownPicture& shown() const { return shown_; }
 

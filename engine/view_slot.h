@@ -25,9 +25,10 @@ struct ViewSlot {
   std::shared_ptr<WeakReceiver> weak_receiver;
   std::function<void()> take;  // called through weak_receiver when there is a picture
 
-  std::mutex mutex;                    // of the next three
-  std::optional<Wish> wish;            // the newest; none before the first, and while nobody sees the view
+  std::mutex mutex;                    // of the next four
+  std::optional<Wish> wish;            // the newest; none before the first
   bool wish_is_new = false;            // since it was last drawn
+  bool seen = false;                   // somebody sees the view; else nothing is drawn
   ShownPicture finished;               // what the engine drew last
   std::atomic<bool> waiting{false};    // a job to draw it is in the queue
   std::atomic<bool> refining{false};   // and one to draw it better

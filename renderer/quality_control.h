@@ -35,9 +35,9 @@ class QualityControl {
   // still ones. One that moves may take so many seconds.
   [[nodiscard]] std::optional<Pass> next(PictureSize full, int rounds = kRounds,
                                          double seconds = kInteractive) const;
-  // That picture was drawn and took so long; unset: it was kept for the most part, and says nothing of
-  // pixels. If the view moved meanwhile, it does not count for the new one.
-  void drawn(const Pass& pass, std::optional<double> seconds);
+  // That picture was drawn and took so long, of whose pixels a share was painted. If the view moved
+  // meanwhile, it does not count for the new one.
+  void drawn(const Pass& pass, double seconds, double painted = 1.0);
 
  private:
   // Seconds that a moving picture of that divisor is expected to take for each of its pixels; none at first.

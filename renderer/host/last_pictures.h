@@ -1,4 +1,5 @@
-// The last volume renderings: the next one of the same view keeps what no changed page of phi is in front of.
+// The last volume renderings: the next one of the same view keeps the pixels whose rays pass no changed page
+// of phi.
 #pragma once
 
 #include <cstdint>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <glm/common.hpp>
+#include <utility>
 
 namespace tidemark::renderer {
 namespace {
@@ -31,7 +32,7 @@ void PhiPages::begin(double band) {
   const float limit = static_cast<float>(band);
   if (limit == band_) return;
   band_ = limit;
-  seen_.reset();
+  memory_ = nullptr;
   copy_.reset();
   outside_.assign(static_cast<std::size_t>(layout_.voxels_per_page()), -limit);
   inside_.assign(outside_.size(), limit);
@@ -70,20 +71,22 @@ void PhiPages::show(std::shared_ptr<const solver::Field> phi, std::span<const st
     if (!comparable || values_[page] != former) changed_[page] = revision_;
   }
   copy_ = std::move(phi);
-  seen_.reset();
+  memory_ = nullptr;
   mark(quiet);
 }
 
 void PhiPages::show(const solver::PageView& view, const std::optional<std::vector<std::int64_t>>& quiet) {
   begin(view.band);
   const std::vector<solver::PhysicalPage>& entries = view.memory->table().entries();
+  // One that lies where another did is told by its moments, which are later.
+  const bool is_another = std::exchange(memory_, view.memory) != view.memory;
   for (std::size_t page = 0; page < values_.size(); ++page) {
     const solver::PhysicalPage entry = entries[page];
     values_[page] = entry == solver::kOutsidePage  ? outside_.data()
                     : entry == solver::kInsidePage ? inside_.data()
                                                    : view.phi(entry);
     const auto number = static_cast<std::int64_t>(page);
-    if (!seen_ || view.memory->has_changed_since(number, *seen_)) changed_[page] = revision_;
+    if (is_another || view.memory->has_changed_since(number, seen_)) changed_[page] = revision_;
   }
   seen_ = view.memory->end_moment();
   copy_.reset();

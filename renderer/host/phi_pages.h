@@ -82,7 +82,9 @@ class PhiPages {
   std::vector<PageState> states_;
   std::vector<bool> was_resident_;
   std::shared_ptr<const solver::Field> copy_;
-  std::optional<solver::ChangedPages::Moment> seen_;  // of the executor's memory; unset: a copy was shown
+  // The memory that was shown last, and when; null: a copy was.
+  const solver::PagedMemory<3>* memory_ = nullptr;
+  solver::ChangedPages::Moment seen_ = 0;
   std::uint64_t revision_ = 0;
   std::vector<std::uint64_t> changed_;  // by virtual page: the first revision with what it has now
 };

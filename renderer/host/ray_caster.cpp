@@ -267,7 +267,7 @@ void RayCaster::march_evenly(Ray& ray, float end, float step, float& first, Piec
       add_piece(ray, std::min(next, end), phi, pieces);
       continue;
     }
-    // Those that have room, at once.
+    // All pieces that have room are added at once.
     const auto piece = static_cast<std::size_t>(pieces.count);
     for (std::size_t i = 0; i < static_cast<std::size_t>(whole); ++i) {
       pieces.from[piece + i] = ray.t + static_cast<float>(i) * step;

@@ -252,7 +252,7 @@ HWY_INLINE void shade(const PieceScene& scene, Pieces& pieces, glm::vec4& result
   std::fill(pieces.to.begin() + pieces.count, pieces.to.end(), pieces.to[count - 1]);
   std::fill(pieces.phi.begin() + pieces.count + 1, pieces.phi.end(), pieces.phi[count]);
   Shaded shaded;
-  // Not in memory, where each sum would wait for the one before.
+  // The sums stay in registers: in memory each would wait for the one before.
   float red = result.r, green = result.g, blue = result.b;
   float left = 1.0F - result.a;
   for (int first = 0; first < pieces.count; first += kLanes) {

@@ -1,4 +1,5 @@
-// The virtual pages that have changed: all since they were last asked for, and each by when it did.
+// The virtual pages that have changed: a list since it was last taken, and for each page the moment of its
+// last change.
 #pragma once
 
 #include <atomic>
@@ -13,8 +14,8 @@ class ChangedPages {
   // A moment in the life of all page tables of the program; later ones are greater.
   using Moment = std::uint64_t;
 
-  // Of a table of so many virtual pages, none of them changed. For those who know only tables from before,
-  // all are.
+  // Of a table of so many virtual pages, none of them changed. An observer who knows moments of earlier
+  // tables alone finds that all have.
   explicit ChangedPages(std::int64_t pages)
       : taken_at_(next_moment()),
         now_(next_moment()),

@@ -283,7 +283,7 @@ class CaseProxyTest : public QObject {
     fixture.begin(10.0);
     engine::PictureFeed feed(fixture.proxy);
     constexpr renderer::PictureSize kLarge{900, 900};
-    constexpr int kHostRounds = 4;  // HostRenderer::still_rounds()
+    constexpr int kHostRounds = 3;  // HostRenderer::still_rounds()
     feed.request(renderer::VolumeView(), kLarge);
     QElapsedTimer since;
     since.start();

@@ -125,6 +125,20 @@ class KeptPictureTest : public QObject {
     }
   }
 
+  void executors_that_live_side_by_side_are_told_apart() {
+    const Scene scene = ball_scene(grid({64, 64, 48}), 12.0);
+    const auto first = executor_for(scene, 12.0);
+    const auto second = executor_for(scene, 6.0);
+    const PageLayout layout = first->snapshot()->layout;
+    const auto kept = renderer_for(scene, layout);
+    for (solver::Executor* executor : {first.get(), second.get(), first.get()}) {
+      QVERIFY(*kept->look_at(*executor, std::nullopt));
+      const auto fresh = renderer_for(scene, layout);
+      QVERIFY(*fresh->look_at(*executor, std::nullopt));
+      QVERIFY(grey_difference(picture_of(*kept, {}), picture_of(*fresh, {})).most <= 1);
+    }
+  }
+
   void a_view_that_shows_more_than_phi_is_painted_whole() {
     const Scene scene = ball_scene(grid({64, 64, 48}), 12.0);
     const auto executor = executor_for(scene, 12.0);

@@ -142,17 +142,25 @@ class QualityControlTest : public QObject {
     QCOMPARE(width_within(renderer::QualityControl::kInteractive), 512);
   }
 
-  // What was kept from the last picture says nothing of how long pixels take.
-  void a_picture_without_a_time_changes_no_size() {
+  // What was kept from the last picture takes time that is not its painted pixels'.
+  void a_picture_that_was_kept_for_the_most_part_makes_none_coarser() {
     renderer::QualityControl control;
-    for (int i = 0; i < 3; ++i) draw_moving(control, 0.040, 1.0);
-    const int width = draw_moving(control, 0.040, 1.0);
-    for (int i = 0; i < 20; ++i) {
+    constexpr double kPixel = 0.040 / (256.0 * 256.0);
+    const auto width_after = [&](double pixel_seconds, double painted) {
       control.moved();
       const renderer::Pass pass = *control.next({512, 512});
-      QCOMPARE(pass.size.width, width);
-      control.drawn(pass, std::nullopt);
-    }
+      const auto pixels = static_cast<double>(pass.size.width * pass.size.height);
+      control.drawn(pass, pixel_seconds * painted * pixels, painted);
+      control.moved();
+      return static_cast<int>(control.next({512, 512})->size.width);
+    };
+    for (int i = 0; i < 4; ++i) width_after(kPixel, 1.0);
+    QCOMPARE(width_after(kPixel, 1.0), 256);
+    for (int i = 0; i < 20; ++i) QCOMPARE(width_after(50.0 * kPixel, 0.02), 256);
+    QCOMPARE(width_after(0.0, 0.0), 256);  // nothing changed
+    int width = 0;
+    for (int i = 0; i < 20; ++i) width = width_after(0.1 * kPixel, 0.02);
+    QCOMPARE(width, 512);
   }
 
   void however_slow_a_picture_is_it_is_not_smaller_than_a_fourth() {

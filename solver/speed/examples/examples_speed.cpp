@@ -11,8 +11,10 @@ namespace {
 
 // Of each class. A stroke's voxels are much alike: more of them cost time and teach little.
 constexpr std::size_t kMostSamples = 2000;
-// What is evaluated at a time: it fits into the second cache, and few nodes around it are computed twice.
-constexpr std::int64_t kTileVoxels = 4096;
+// What is evaluated at a time, along each axis: it fits into the second cache, and few nodes around it are
+// computed twice.
+constexpr std::int64_t kTileSide = 16;
+constexpr std::int64_t kTileReach = 32;  // voxels from the first cell's to the last one's
 
 // Evenly, so that every stroke keeps its share.
 void take_samples(const std::vector<std::int64_t>& stroke, std::vector<std::int64_t>& voxels) {
@@ -67,11 +69,11 @@ void copy_box(const double* values, const VoxelBox& box, const VoxelBox& into, V
 }
 
 template <class Visit>
-void for_tiles(const VoxelBox& box, Visit visit) {
+void for_tiles(const VoxelBox& box, Index3 most, Visit visit) {
   VoxelBox tile;
-  tile.size.z = std::min<std::int64_t>(box.size.z, 16);
-  tile.size.y = std::min<std::int64_t>(box.size.y, tile.size.z == 16 ? 16 : 16);
-  tile.size.x = std::max<std::int64_t>(1, kTileVoxels / (tile.size.y * tile.size.z));
+  tile.size.z = std::min(box.size.z, most.z);
+  tile.size.y = std::min(box.size.y, most.y);
+  tile.size.x = std::max<std::int64_t>(1, most.x * most.y * most.z / (tile.size.y * tile.size.z));
   Index3 at;
   for (at.z = 0; at.z < box.size.z; at.z += tile.size.z) {
     for (at.y = 0; at.y < box.size.y; at.y += tile.size.y) {
@@ -101,7 +103,8 @@ void write_prior(const Features& features, const Forest& forest, const WalkerGri
   std::vector<float> values;
   std::vector<double> probabilities;
   const VoxelBox all{Index3(0, 0, first), Index3(grid.size.x, grid.size.y, last - first)};
-  for_tiles(all, [&](const VoxelBox& cells) {
+  const Index3 most = glm::clamp(Index3(kTileReach) / grid.step, Index3(4), Index3(kTileSide));
+  for_tiles(all, most, [&](const VoxelBox& cells) {
     const VoxelBox voxels =
         common({grid.box.first + cells.first * grid.step, cells.size * grid.step}, grid.box);
     values.resize(static_cast<std::size_t>(cells.voxels() * features.count()));
@@ -176,7 +179,7 @@ void ExamplesSpeed::evaluate_doubt(const VoxelBox& box, double* doubt) const {
 
 void ExamplesSpeed::probabilities(const VoxelBox& box, double* inside) const {
   const VoxelBox& known = walker_.grid().box;
-  for_tiles(box,
+  for_tiles(box, Index3(kTileSide),
             [&, forest = ForestEvaluator(forest_), features = std::vector<float>(),
              of_tile = std::vector<double>(), walked = std::vector<double>()](const VoxelBox& tile) mutable {
               of_tile.resize(static_cast<std::size_t>(tile.voxels()));

@@ -266,6 +266,7 @@ void DockingStoryTest::views_that_nobody_sees_take_no_time_from_the_surface() {
   desktop.proxy().set_pause_at_convergence(false);
   desktop.press(Qt::Key_W);  // a double click of the sphere tool places two
   auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  auto* volume = desktop.view<ui::VolumeViewWidget>();
   const auto click_twice = [&] { QTest::mouseDClick(axial, Qt::LeftButton, {}, axial->rect().center()); };
   click_twice();
   ui::CaseWindow& window = *desktop.window().active_case();
@@ -275,6 +276,15 @@ void DockingStoryTest::views_that_nobody_sees_take_no_time_from_the_surface() {
   std::map<ui::PictureView*, std::uint64_t> before;
   for (ui::PictureView* view : window.views()) before[view] = number_of(view);
   QCOMPARE(before.size(), std::size_t{3});
+  // A finished picture in 3D is there again as it was.
+  click_twice();
+  QVERIFY(Desktop::wait_for([&] { return visible(window).size() == 3; }));
+  desktop.wait_until_idle();
+  QCOMPARE(number_of(volume), before[volume]);
+  click_twice();
+  QVERIFY(Desktop::wait_for([&] { return visible(window).size() == 1; }));
+  desktop.wait_until_idle();
+  for (ui::PictureView* view : window.views()) before[view] = number_of(view);
   desktop.press(Qt::Key_P);
   QVERIFY(Desktop::wait_for([&] { return number_of(axial) > before[axial] + 5; }));
   desktop.press(Qt::Key_P);
