@@ -89,7 +89,7 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
   const std::int64_t most = run_ ? std::min(run_->steps, steps_to_next_picture()) : steps_to_next_picture();
   if (status) status = group ? group->advance(*this, progress) : advance(most, progress);
   const std::int64_t done = case_->level_set().step() - before;
-  pace_.end_steps(done);
+  pace_.end_steps();
   if (run_) run_->steps -= done;
   if (run_ && run_->steps <= 0) playing_ = false;
   if (!status && status.error().kind != ErrorKind::cancelled &&
@@ -119,6 +119,7 @@ Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
   const bool leaks = leak_watch_.alarm() != nullptr;
   const bool comes_to_rest = report->converged && !meter_.converged();
   meter_.computed(*report, level_set.step());
+  pace_.moved(report->surface_speed * level_set.executor().time_step());
   painter_.phi_changed();
   if (leaks || (report->converged && pauses)) playing_ = false;
   // What has become of it is known with the state that says that it rests.

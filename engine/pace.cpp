@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace tidemark::engine {
 namespace {
 
 constexpr double kUpdateSeconds = 0.048;  // from picture to picture: 20 a second are seen as motion
 constexpr double kChunkSeconds = 0.016;   // of steps between two pictures, at least
-// Between two pictures, at most: it should be seen how the surface moves. What has played for long may go on
-// by a tenth of its steps, up to kMostSteps: those of a surface at rest take no time.
-constexpr std::int64_t kFirstSteps = 50;
+// Between two pictures it should be seen how the surface moves: so far at most, but always so many steps.
+// Those of a surface at rest take no time.
+constexpr double kMostVoxels = 8.0;
+constexpr std::int64_t kFewestSteps = 50;
 constexpr std::int64_t kMostSteps = 500;
 
 }  // namespace
@@ -22,7 +24,12 @@ void Pace::set(double steps_per_second) {
 }
 
 void Pace::restart() {
-  played_ = 0;
+  voxels_per_step_ = 0.0;
+  is_old_ = true;
+}
+
+void Pace::moved(double voxels_per_step) {
+  if (!std::exchange(is_old_, false)) voxels_per_step_ = voxels_per_step;
 }
 
 void Pace::begin_steps() {
@@ -30,8 +37,7 @@ void Pace::begin_steps() {
     between_s_ = std::chrono::duration<double>(Engine::Clock::now() - ended_).count();
 }
 
-void Pace::end_steps(std::int64_t steps) {
-  played_ += steps;
+void Pace::end_steps() {
   ended_ = Engine::Clock::now();
 }
 
@@ -40,7 +46,10 @@ std::int64_t Pace::steps_to_next_picture(double seconds_per_step) const {
   if (steps_per_second_ > 0.0) return std::max(std::llround(kChunkSeconds * steps_per_second_), 1LL);
   if (seconds_per_step <= 0.0) return 1;
   const double chunk_s = std::max(kUpdateSeconds - between_s_, kChunkSeconds);
-  const std::int64_t most = std::clamp(played_ / 10, kFirstSteps, kMostSteps);
+  const std::int64_t most =
+      voxels_per_step_ > 0.0
+          ? std::llround(std::clamp(kMostVoxels / voxels_per_step_, 1.0 * kFewestSteps, 1.0 * kMostSteps))
+          : kFewestSteps;
   return std::clamp<std::int64_t>(std::llround(chunk_s / seconds_per_step), 1, most);
 }
 

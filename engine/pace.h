@@ -15,13 +15,15 @@ class Pace {
   // 0: as many as the pace, or else the time of a picture, allows.
   void set_steps_per_picture(std::int64_t steps) { steps_per_picture_ = steps; }
 
-  // The surface begins to move, or moves by something else from now on: its steps may take longer than the
-  // last.
+  // The surface begins to move, or moves by something else from now on.
   void restart();
+  // How far it goes on where it is fastest, as of some steps ago: the first report after restart() may be of
+  // before.
+  void moved(double voxels_per_step);
   // Around each run of steps. What comes between two runs, pictures above all, leaves the next one the rest
   // of the time until a picture is due.
   void begin_steps();
-  void end_steps(std::int64_t steps);
+  void end_steps();
 
   // A step takes `seconds_per_step`; 0: nobody knows.
   [[nodiscard]] std::int64_t steps_to_next_picture(double seconds_per_step) const;
@@ -35,7 +37,8 @@ class Pace {
   Engine::Clock::time_point due_;    // of the steps up to here
   Engine::Clock::time_point ended_;  // the last run of steps
   double between_s_ = 0.0;           // the last two runs
-  std::int64_t played_ = 0;          // steps since restart()
+  double voxels_per_step_ = 0.0;     // 0: nobody knows
+  bool is_old_ = true;               // what is reported next
 };
 
 }  // namespace tidemark::engine
