@@ -20,9 +20,11 @@ void CaseRunner::join(std::weak_ptr<LockStep> group) {
 void CaseRunner::play_alone(bool playing) {
   const bool begins = playing && !playing_;
   stroke_steps_ = 0;
-  if (begins) case_speed_.try_again();
-  if (begins) leak_watch_.forget_alarm();
-  if (begins) pace_.restart();
+  if (begins) {
+    case_speed_.try_again();
+    leak_watch_.forget_alarm();
+    pace_.restart();
+  }
   playing_ = playing && case_->level_set().begun();
   if (begins && playing_) post_steps();
   if (!playing_) end_run();

@@ -45,10 +45,9 @@ std::optional<double> QualityControl::expected_pixel_seconds(int divisor) const 
 
 void QualityControl::drawn(const Pass& pass, double seconds, double painted) {
   const double measured = seconds / (painted * static_cast<double>(pass.size.width * pass.size.height));
-  const auto& before = pixel_seconds_[static_cast<std::size_t>(pass.divisor)];
+  auto& known = pixel_seconds_[static_cast<std::size_t>(pass.divisor)];
   // What was kept for the most part says of pixels no more than that they take no longer.
-  if (pass.moving && (painted > 0.5 || (before && measured < *before))) {
-    auto& known = pixel_seconds_[static_cast<std::size_t>(pass.divisor)];
+  if (pass.moving && (painted > 0.5 || (known && measured < *known))) {
     // Half of the change: one slow picture on a busy machine does not make the next ones coarse. A view that
     // became slower is so at all sizes.
     const double change = known && *known > 0.0 ? 0.5 * (1.0 + measured / *known) : 1.0;

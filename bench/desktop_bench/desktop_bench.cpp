@@ -209,9 +209,6 @@ int main(int argc, char** argv) {
   window.open_phantom(parser.value("phantom"));
   if (!wait_for([&] { return window.active_case() != nullptr; }, 60000)) return 1;
   engine::CaseProxy& proxy = window.active_case()->proxy();
-  begin(proxy);
-  if (!wait_for([&] { return proxy.state().begun; }, 60000)) return 1;
-  wait(500);
   application.longest_ms = 0.0;
   std::printf("%s, %s, playing:\n", qPrintable(parser.value("phantom")), qPrintable(proxy.state().executor));
   measure_rates(*window.active_case(), parser.value("steps").toLongLong());

@@ -238,8 +238,7 @@ Result<const gpu::Program*> GlRenderer::use_volume_program(const char* fragment,
   const Geometry& geometry = source_->geometry;
   set_shading(program, view, geometry);
   if (source) source_picture_.set_transfer_function(*source_, *view.source, view.region, phi_.band());
-  program.set("voxel_from_view", glm::mat4(view.camera.voxel_from_view(geometry, size.aspect()) *
-                                           moved_by(offset_of_round(view.quality.round), size)));
+  program.set("voxel_from_view", glm::mat4(voxel_from_view(view, geometry, size)));
   program.set("pixel_mm", static_cast<float>(2.0 * view.camera.half_height_mm(geometry, size.aspect()) /
                                              static_cast<double>(size.height)));
   program.set("step_voxels", static_cast<float>(view.quality.step_voxels));

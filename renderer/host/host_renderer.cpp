@@ -98,17 +98,17 @@ Result<Picture> HostRenderer::draw(const VolumeView& view, PictureSize size, con
   LastPictures::Drawn drawn{resolved(view), size, scene_.phi.revision(), {}};
   const bool can_keep = LastPictures::can_keep(scene_, drawn.view, size);
   const LastPictures::Drawn* const last = can_keep ? last_pictures_.of(drawn.view, size) : nullptr;
+  std::vector<std::uint8_t> changed;  // empty: all pixels
   if (last != nullptr) {
     drawn.picture = last->picture;
-    const auto changed = changed_pixels(scene_, *last);
+    changed = changed_pixels(scene_, *last);
     const auto count = std::count(changed.begin(), changed.end(), std::uint8_t{1});
     drawn.picture.painted = static_cast<double>(count) / static_cast<double>(changed.size());
-    TIDEMARK_TRY(paint_volume(scene_, drawn.view, drawn.picture, changed, threads_, progress));
   } else {
     drawn.picture = {size.width, size.height,
                      std::vector<std::uint8_t>(static_cast<std::size_t>(4 * size.width * size.height))};
-    TIDEMARK_TRY(paint_volume(scene_, drawn.view, drawn.picture, {}, threads_, progress));
   }
+  TIDEMARK_TRY(paint_volume(scene_, drawn.view, drawn.picture, changed, threads_, progress));
   Picture picture = drawn.picture;
   if (can_keep) last_pictures_.keep(std::move(drawn));
   return picture;

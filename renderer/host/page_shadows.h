@@ -32,7 +32,7 @@ class PageShadows {
   std::int64_t columns_;
   std::int64_t rows_;
   glm::vec3 shape_;
-  glm::mat3 turn_;  // from voxels to blocks from the top left, and to voxels along the rays
+  glm::mat3 turn_{1.0F};  // from voxels to blocks from the top left, and to voxels along the rays
   glm::vec3 origin_{0.0F};
   glm::vec3 reach_{0.0F};  // of a page's shadow from its middle
 };

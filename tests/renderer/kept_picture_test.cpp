@@ -31,6 +31,16 @@ renderer::Picture picture_of(renderer::Renderer& renderer, const renderer::Volum
   return std::move(*renderer.draw(view, kSize, {}));
 }
 
+// Between the picture of a renderer that may keep some of the one before, and of one that has none.
+GreyDifference difference_to_fresh(renderer::Renderer& kept, const Scene& scene, solver::Executor& executor) {
+  const auto fresh = renderer_for(scene, executor.snapshot()->layout);
+  for (renderer::Renderer* one : {&kept, fresh.get()}) {
+    if (const auto looks = one->look_at(executor, std::nullopt); !looks || !*looks)
+      qFatal("it does not look");
+  }
+  return grey_difference(picture_of(kept, {}), picture_of(*fresh, {}));
+}
+
 // A ball of 100 in 0, and at its side another one.
 double two_balls(glm::dvec3 p) {
   return glm::length(p - glm::dvec3(24.0)) < 14.0 || glm::length(p - glm::dvec3(60.0, 40.0, 30.0)) < 10.0
@@ -114,14 +124,9 @@ class KeptPictureTest : public QObject {
   // Its memory may lie where the other one's did.
   void another_executor_is_another_surface() {
     const Scene scene = ball_scene(grid({64, 64, 48}), 12.0);
-    const PageLayout layout = executor_for(scene, 12.0)->snapshot()->layout;
-    const auto kept = renderer_for(scene, layout);
+    const auto kept = renderer_for(scene, executor_for(scene, 12.0)->snapshot()->layout);
     for (const double radius : {12.0, 6.0, 15.0}) {
-      const auto executor = executor_for(scene, radius);
-      QVERIFY(*kept->look_at(*executor, std::nullopt));
-      const auto fresh = renderer_for(scene, layout);
-      QVERIFY(*fresh->look_at(*executor, std::nullopt));
-      QVERIFY(grey_difference(picture_of(*kept, {}), picture_of(*fresh, {})).most <= 1);
+      QVERIFY(difference_to_fresh(*kept, scene, *executor_for(scene, radius)).most <= 1);
     }
   }
 
@@ -129,13 +134,9 @@ class KeptPictureTest : public QObject {
     const Scene scene = ball_scene(grid({64, 64, 48}), 12.0);
     const auto first = executor_for(scene, 12.0);
     const auto second = executor_for(scene, 6.0);
-    const PageLayout layout = first->snapshot()->layout;
-    const auto kept = renderer_for(scene, layout);
+    const auto kept = renderer_for(scene, first->snapshot()->layout);
     for (solver::Executor* executor : {first.get(), second.get(), first.get()}) {
-      QVERIFY(*kept->look_at(*executor, std::nullopt));
-      const auto fresh = renderer_for(scene, layout);
-      QVERIFY(*fresh->look_at(*executor, std::nullopt));
-      QVERIFY(grey_difference(picture_of(*kept, {}), picture_of(*fresh, {})).most <= 1);
+      QVERIFY(difference_to_fresh(*kept, scene, *executor).most <= 1);
     }
   }
 
