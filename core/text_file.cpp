@@ -1,20 +1,33 @@
 #include "core/text_file.h"
 
-#include <fstream>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
 
 namespace tidemark {
 
 Result<std::string> read_text_file(const std::filesystem::path& file, std::size_t most) {
+  const auto unreadable = [&](const std::error_code& error) {
+    return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.message());
+  };
+  // What is no file of bytes is not opened: a pipe would wait.
   std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) return fail(ErrorKind::input, "{}: cannot be read: {}", file.string(), error.message());
+  std::filesystem::file_size(file, error);
+  if (error) return unreadable(error);
+  // The size is that of what was opened: another file may take its name at any time.
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(std::fopen(file.c_str(), "rbe"), &std::fclose);
+  struct stat status {};
+  if (opened == nullptr || ::fstat(::fileno(opened.get()), &status) != 0)
+    return unreadable({errno, std::generic_category()});
+  const auto size = static_cast<std::size_t>(status.st_size);
   if (size > most) {
     return fail(ErrorKind::input, "{}: {} bytes, more than {} are not read", file.string(), size, most);
   }
-  std::ifstream stream(file, std::ios::binary);
   std::string text(size, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(size));
-  if (stream.gcount() != static_cast<std::streamsize>(size)) {
+  if (std::fread(text.data(), 1, size, opened.get()) != size) {
     return fail(ErrorKind::input, "{}: cannot be read", file.string());
   }
   return text;
