@@ -129,7 +129,7 @@ void CaseRunner::report_failure(const Error& error) {
 }
 
 void CaseRunner::phi_changed() {
-  pace_.restart();
+  schedule_.restart();
   painter_.phi_changed();
   meter_.edited();
   leak_watch_.restart();
@@ -142,7 +142,7 @@ Status CaseRunner::report_edit(Status outcome) {
 }
 
 Status CaseRunner::report_change(Status outcome) {
-  pace_.restart();
+  schedule_.restart();
   painter_.look_changed();
   meter_.adjusted();
   return outcome;
@@ -356,7 +356,7 @@ void CaseRunner::publish() {
   state.steered_at = recipe.events.empty() ? 0 : recipe.events.back().step;
   state.playing = playing_;
   state.leak = leak_watch_.alarm();
-  state.pace = pace_.steps_per_second();
+  state.pace = schedule_.steps_per_second();
   state.time_step = level_set.executor().time_step();
   state.band = level_set.executor().band();
   state.smoothed_mm = case_->smoothed_mm();

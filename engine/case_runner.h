@@ -10,9 +10,9 @@
 #include "engine/case_proxy.h"
 #include "engine/case_speed.h"
 #include "engine/leak_watch.h"
-#include "engine/pace.h"
 #include "engine/shown_speed.h"
 #include "engine/state_post.h"
+#include "engine/step_schedule.h"
 #include "engine/weak_receiver.h"
 
 namespace tidemark::engine {
@@ -81,16 +81,16 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void set_playing(bool playing);
   Status step(std::int64_t steps, const Progress& progress);
   void play_alone(bool playing);
-  void set_steps_per_picture(std::int64_t steps) { pace_.set_steps_per_picture(steps); }
+  void set_steps_per_picture(std::int64_t steps) { schedule_.set_steps_per_picture(steps); }
   void set_pause_at_convergence(bool pause) { pause_at_convergence_ = pause; }
   // Unset: a leak does not make it pause. In lock-step none does.
   void set_leak_rule(const std::optional<document::LeakRule>& rule) { leak_watch_.set_rule(rule); }
   // At most so many steps a second while it plays; 0: as many as can be computed. For all cases in lock-step.
   void set_pace(double steps_per_second);
   void set_pace_alone(double steps_per_second);
-  [[nodiscard]] double pace() const { return pace_.steps_per_second(); }
+  [[nodiscard]] double pace() const { return schedule_.steps_per_second(); }
   [[nodiscard]] std::int64_t steps_to_next_picture() const {
-    return pace_.steps_to_next_picture(meter_.seconds_per_step());
+    return schedule_.steps_to_next_picture(meter_.seconds_per_step());
   }
   // Computes steps and records their outcome. A level set that has converged stops playing; in lock-step all
   // go on until all have converged.
@@ -146,7 +146,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   std::weak_ptr<LockStep> group_;
 
   LeakWatch leak_watch_;
-  Pace pace_;
+  StepSchedule schedule_;
   CaseSpeed case_speed_;
   ShownSpeed shown_speed_;
 

@@ -23,7 +23,7 @@ void CaseRunner::play_alone(bool playing) {
   if (begins) {
     case_speed_.try_again();
     leak_watch_.forget_alarm();
-    pace_.restart();
+    schedule_.restart();
   }
   playing_ = playing && case_->level_set().begun();
   if (begins && playing_) post_steps();
@@ -77,7 +77,7 @@ void CaseRunner::set_pace(double steps_per_second) {
 }
 
 void CaseRunner::set_pace_alone(double steps_per_second) {
-  pace_.set(steps_per_second);
+  schedule_.set(steps_per_second);
   if (playing_) post_steps();
 }
 
@@ -87,11 +87,11 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
   const auto group = group_.lock();
   const std::int64_t before = case_->level_set().step();
   const Progress progress{nullptr, std::move(stop)};
-  pace_.begin_steps();
+  schedule_.begin_steps();
   const std::int64_t most = run_ ? std::min(run_->steps, steps_to_next_picture()) : steps_to_next_picture();
   if (status) status = group ? group->advance(*this, progress) : advance(most, progress);
   const std::int64_t done = case_->level_set().step() - before;
-  pace_.end_steps();
+  schedule_.end_steps();
   if (run_) run_->steps -= done;
   if (run_ && run_->steps <= 0) playing_ = false;
   if (!status && status.error().kind != ErrorKind::cancelled &&
@@ -100,7 +100,7 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
     report_failure(status.error());
   }
   if (playing_) {
-    post_steps(pace_.next_due(done));
+    post_steps(schedule_.next_due(done));
   } else {
     end_run();
   }
@@ -121,7 +121,7 @@ Status CaseRunner::advance(std::int64_t steps, const Progress& progress) {
   const bool leaks = leak_watch_.alarm() != nullptr;
   const bool comes_to_rest = report->converged && !meter_.converged();
   meter_.computed(*report, level_set.step());
-  pace_.moved(report->surface_speed * level_set.executor().time_step());
+  schedule_.moved(report->surface_speed * level_set.executor().time_step());
   painter_.phi_changed();
   if (leaks || (report->converged && pauses)) playing_ = false;
   // What has become of it is known with the state that says that it rests.

@@ -19,11 +19,8 @@ Status CaseRunner::take_stroke(const document::Drive& drive, const std::vector<s
   std::ranges::set_intersection(voxels, drive.strokes->inside, std::back_inserter(inside));
   if (level_set.begun()) TIDEMARK_TRY(add_missed(inside, gesture));
   TIDEMARK_TRY(report_edit(level_set.set_drive(drive, gesture)));
-  if (!level_set.begun()) {
-    document::Start start;
-    start.seeds = spheres_along(case_->volume()->geometry, drive.strokes->inside);
-    TIDEMARK_TRY(report_edit(level_set.begin(start, progress)));
-  }
+  if (!level_set.begun())
+    TIDEMARK_TRY(report_edit(level_set.begin(start_in(case_->volume()->geometry, *drive.strokes), progress)));
   stroke_steps_ = steps;
   return {};
 }

@@ -114,4 +114,10 @@ std::vector<solver::Sphere> spheres_along(const Geometry& geometry, const std::v
   return spheres;
 }
 
+document::Start start_in(const Geometry& geometry, const solver::Strokes& strokes) {
+  document::Start start;
+  start.seeds = spheres_along(geometry, strokes.inside);
+  return start;
+}
+
 }  // namespace tidemark::engine

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry.h"
+#include "document/start.h"
 #include "solver/speed/strokes.h"
 #include "solver/sphere.h"
 
@@ -30,5 +31,8 @@ std::shared_ptr<const solver::Strokes> painted(const solver::Strokes* strokes,
 
 // Spheres of two voxels' radius along the voxels, ascending, from which a surface can begin.
 std::vector<solver::Sphere> spheres_along(const Geometry& geometry, const std::vector<std::int64_t>& voxels);
+
+// A start in all strokes inside.
+document::Start start_in(const Geometry& geometry, const solver::Strokes& strokes);
 
 }  // namespace tidemark::engine

@@ -113,7 +113,7 @@ QPushButton* LessonEditor::make_button(const QString& text, const QString& tip, 
   button->setAutoDefault(false);
   button->setToolTip(tip);
   connect(button, &QPushButton::clicked, this, [this, clicked] {
-    settle();
+    commit_typed_number();
     clicked();
   });
   row.addWidget(button);
@@ -192,7 +192,7 @@ void LessonEditor::connect_trials() {
 }
 
 void LessonEditor::new_lesson() {
-  settle();
+  commit_typed_number();
   file_->when_kept([this] {
     show_lesson(empty_lesson(), {});
     suits_.suit(lesson_.study.phantom);
@@ -200,12 +200,12 @@ void LessonEditor::new_lesson() {
 }
 
 void LessonEditor::edit(const document::Lesson& lesson, const std::filesystem::path& file) {
-  settle();
+  commit_typed_number();
   file_->when_kept([this, lesson, file] { show_lesson(lesson, file); });
 }
 
 void LessonEditor::open(const std::filesystem::path& file) {
-  settle();
+  commit_typed_number();
   file_->when_kept([this, file] { file_->open(file); });
 }
 
@@ -241,7 +241,7 @@ void LessonEditor::note_edit() {
   checking_.start();
 }
 
-void LessonEditor::settle() {
+void LessonEditor::commit_typed_number() {
   if (auto* box = qobject_cast<NumberBox*>(focusWidget())) box->interpretText();
 }
 
@@ -333,7 +333,7 @@ void LessonEditor::set_busy(bool busy) {
 }
 
 void LessonEditor::reject() {
-  settle();
+  commit_typed_number();
   file_->when_kept([this] {
     trials_.cancel();
     QDialog::reject();

@@ -73,7 +73,7 @@ class LessonEditor : public QDialog {
   void note_edit();
   void check();
   void show_title();
-  void settle();  // takes the number that is just being typed
+  void commit_typed_number();  // the edited number box keeps what is typed
   void say(const QString& sentence);
   void take_from_case();
   void take(const CaseSetup& setup);

@@ -88,7 +88,7 @@ void CaseFiles::run(const QString& about, const QString& file, Work work, std::f
         const Status status = work();
         job.deliver([this, about, file, status, done] {
           if (!status) return window_.tell(engine::message_text(status.error()), about);
-          window_.settle(about);
+          window_.dismiss_about(about);
           window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
           if (done) done();
           emit written(file);

@@ -78,7 +78,7 @@ void CaseMessages::tell_failure(const QString& message) {
 }
 
 void CaseMessages::follow() {
-  if (done() != done_at_failure_) bar_.settle(name_of(window_));
+  if (done() != done_at_failure_) bar_.dismiss_about(name_of(window_));
   tell_outcome();
 }
 
@@ -100,7 +100,7 @@ void CaseMessages::tell_outcome() {
                        }}});
     bar_.mark_as_of(window_);
   } else {
-    bar_.settle(about);
+    bar_.dismiss_about(about);
   }
 }
 

@@ -147,7 +147,7 @@ void CaseResults::end_reading(const QString& problem) {
 void CaseResults::add(const std::shared_ptr<const imaging::Segments>& segments) {
   if (CaseWindow* into = waiting_.front().window) {
     into->proxy().import_labels(segments);
-    window_.settle(kAboutImport);
+    window_.dismiss_about(kAboutImport);
     window_.panels().show("labels");
     const QString name = QFileInfo(waiting_.front().file).fileName();
     window_.statusBar()->showMessage(

@@ -120,7 +120,7 @@ void CohortReview::read(const KeptCohort& wanted) {
 
 void CohortReview::show(cohort::ReviewList list, const KeptCohort& wanted) {
   close();
-  window_.settle(kAboutCohort);
+  window_.dismiss_about(kAboutCohort);
   path_ = wanted.folder;
   plan_ = std::make_shared<const cohort::CohortPlan>(std::move(list.plan));
   model_ = std::make_unique<CohortModel>(folder_of(path_), std::move(list.entries));
@@ -293,7 +293,7 @@ void CohortReview::add(const std::shared_ptr<const engine::LoadedStudy>& study,
                        const std::shared_ptr<const document::SessionContents>& contents) {
   const int row = std::exchange(opening_, -1);
   panel_->work().end({});
-  window_.settle(kAboutCohort);
+  window_.dismiss_about(kAboutCohort);
   const QPointer before(open_window());
   const bool is_free = before && !is_changed();
   // Computed as a run would go on, so that the recipe makes the same voxels everywhere.

@@ -9,7 +9,7 @@ namespace tidemark::ui {
 DockShares::DockShares(QMainWindow& window) : QObject(&window), window_(window) {
   window.installEventFilter(this);
   settling_.setSingleShot(true);
-  connect(&settling_, &QTimer::timeout, this, &DockShares::settle);
+  connect(&settling_, &QTimer::timeout, this, &DockShares::note_or_restore);
 }
 
 void DockShares::set(const Shares& shares) {
@@ -29,7 +29,7 @@ bool DockShares::eventFilter(QObject* watched, QEvent* event) {
   return QObject::eventFilter(watched, event);
 }
 
-void DockShares::settle() {
+void DockShares::note_or_restore() {
   if (!window_.isVisible()) return;
   if (std::exchange(settled_, window_.size()) != window_.size() && !shares_.isEmpty()) {
     restoring_ = true;

@@ -23,7 +23,7 @@ class DockShares : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void settle();  // once windows and docks have their sizes
+  void note_or_restore();  // once windows and docks have their sizes
   [[nodiscard]] QList<QDockWidget*> docks() const;
   void note();
   void restore();

@@ -40,7 +40,7 @@ FilmWriter::FilmWriter(MainWindow& window, CaseFiles& files)
   });
   connect(&jobs_, &engine::ResultJobs::written, this, [this] {
     progress_->hide();
-    window_.settle(kAboutFilms);
+    window_.dismiss_about(kAboutFilms);
     window_.statusBar()->showMessage(tr("Wrote %1").arg(file_), 8000);
     emit files_.written(file_);
   });

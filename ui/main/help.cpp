@@ -88,7 +88,7 @@ void Help::open() {
     const QFileInfo file(place);
     if (!file.exists()) continue;
     if (QDesktopServices::openUrl(QUrl::fromLocalFile(file.canonicalFilePath()))) {
-      return window_.settle(kAboutHandbook);
+      return window_.dismiss_about(kAboutHandbook);
     }
     return window_.tell(
         tr("No browser could be started. The handbook's page is %1").arg(file.canonicalFilePath()),

@@ -123,7 +123,7 @@ void ImageAdder::add(const engine::LoadedStudy& loaded, const engine::ShownImage
   proxy.display().change(
       [&](engine::DisplaySettings& settings) { engine::add_image(settings.images, shown); });
   window_.panels().show("display");
-  if (engine::is_placed(*shown.image, proxy.study())) return window_.settle(kAboutImages);
+  if (engine::is_placed(*shown.image, proxy.study())) return window_.dismiss_about(kAboutImages);
   const bool differs =
       !loaded.frame_of_reference_uid.empty() && !proxy.study().frame_of_reference_uid.empty();
   window_.tell(differs

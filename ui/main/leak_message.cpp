@@ -28,7 +28,7 @@ void LeakMessage::follow() {
   if (told_) {
     show();
   } else {
-    bar_.settle(about());
+    bar_.dismiss_about(about());
   }
 }
 

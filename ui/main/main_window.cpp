@@ -221,7 +221,7 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const engine::LoadedStudy
       settings.tool = engine::Tool::seed;  // to be tried at once: its T and epsilon fit
     }
   });
-  settle(kAboutOpening);
+  dismiss_about(kAboutOpening);
   window->set_number(free_number());
   // The event loop runs between making a case and showing it.
   const auto show = [this, child = QPointer(place(window)), study, restored] {
@@ -319,8 +319,8 @@ void MainWindow::tell(const QString& message, const QString& about) {
   messages_->show_text(message, about);
 }
 
-void MainWindow::settle(const QString& about) {
-  messages_->settle(about);
+void MainWindow::dismiss_about(const QString& about) {
+  messages_->dismiss_about(about);
 }
 
 // The active case.

@@ -91,7 +91,7 @@ class MainWindow : public QMainWindow {
   void set_executor(solver::ExecutorKind kind) { executor_ = kind; }
   // Shows a sentence until it is dismissed, the next one comes, or its subject has succeeded.
   void tell(const QString& message, const QString& about = {});
-  void settle(const QString& about);
+  void dismiss_about(const QString& about);
 
  protected:
   void closeEvent(QCloseEvent* event) override;

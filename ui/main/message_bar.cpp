@@ -89,7 +89,7 @@ void MessageBar::forget_case() {
   mark_->hide();
 }
 
-void MessageBar::settle(const QString& about) {
+void MessageBar::dismiss_about(const QString& about) {
   if (!about.isEmpty() && about == about_) dismiss();
 }
 

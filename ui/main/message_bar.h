@@ -21,7 +21,7 @@ class MessageBar : public QFrame {
  public:
   explicit MessageBar(QWidget* parent = nullptr);
 
-  // `about`: the subject that failed, for settle(); empty: the message stays until it is dismissed.
+  // `about`: the subject that failed, for dismiss_about(); empty: the message stays until it is dismissed.
   void show_text(const QString& text, const QString& about = {});
   // The same with buttons that do something about it; the message goes then.
   struct Offer {
@@ -33,7 +33,7 @@ class MessageBar : public QFrame {
   // The message that is shown is of that case: it bears the case's mark and goes with the case.
   void mark_as_of(CaseWindow& window);
   // The subject has succeeded: removes the message of its failure.
-  void settle(const QString& about);
+  void dismiss_about(const QString& about);
   // Takes the widget over, until it is dismissed or another message comes.
   void show_widget(QWidget* widget);
   void dismiss();

@@ -89,7 +89,7 @@ void Teaching::open(const QString& file) {
   const auto path = path_of(file);
   auto lesson = document::Lesson::load(path);
   if (!lesson) return window_.tell(engine::message_text(lesson.error()), kAboutLessons);
-  window_.settle(kAboutLessons);
+  window_.dismiss_about(kAboutLessons);
   begin(std::move(*lesson), path);
 }
 

@@ -134,7 +134,7 @@ void TruthReader::compare(const QString& name, std::function<Mask()> make) {
 void TruthReader::take(const std::shared_ptr<const Mask>& truth, const QString& name) {
   if (!of_) return;
   if (!truth) return end(tr("%1 has no voxel inside: there is nothing to compare with.").arg(name));
-  window_.settle(kAboutTruth);
+  window_.dismiss_about(kAboutTruth);
   of_->proxy().compare_with(truth);
   of_->proxy().display().change([](engine::DisplaySettings& settings) { settings.truth = true; });
   window_.panels().show("level-set");

@@ -10,11 +10,7 @@ bool can_play(const engine::CaseProxy& proxy) {
 
 void toggle_play(engine::CaseProxy& proxy) {
   if (!can_play(proxy)) return;
-  if (!proxy.state().begun) {
-    document::Start start;
-    start.seeds = engine::spheres_along(proxy.volume().geometry, proxy.drive().strokes->inside);
-    proxy.begin(start);
-  }
+  if (!proxy.state().begun) proxy.begin(engine::start_in(proxy.volume().geometry, *proxy.drive().strokes));
   proxy.toggle_play();
 }
 

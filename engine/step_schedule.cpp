@@ -1,4 +1,4 @@
-#include "engine/pace.h"
+#include "engine/step_schedule.h"
 
 #include <algorithm>
 #include <chrono>
@@ -18,30 +18,30 @@ constexpr std::int64_t kMostSteps = 500;
 
 }  // namespace
 
-void Pace::set(double steps_per_second) {
+void StepSchedule::set(double steps_per_second) {
   steps_per_second_ = steps_per_second;
   due_ = Engine::Clock::now();
 }
 
-void Pace::restart() {
+void StepSchedule::restart() {
   voxels_per_step_ = 0.0;
   is_old_ = true;
 }
 
-void Pace::moved(double voxels_per_step) {
+void StepSchedule::moved(double voxels_per_step) {
   if (!std::exchange(is_old_, false)) voxels_per_step_ = voxels_per_step;
 }
 
-void Pace::begin_steps() {
+void StepSchedule::begin_steps() {
   if (ended_ != Engine::Clock::time_point{})
     between_s_ = std::chrono::duration<double>(Engine::Clock::now() - ended_).count();
 }
 
-void Pace::end_steps() {
+void StepSchedule::end_steps() {
   ended_ = Engine::Clock::now();
 }
 
-std::int64_t Pace::steps_to_next_picture(double seconds_per_step) const {
+std::int64_t StepSchedule::steps_to_next_picture(double seconds_per_step) const {
   if (steps_per_picture_ > 0) return steps_per_picture_;
   if (steps_per_second_ > 0.0) return std::max(std::llround(kChunkSeconds * steps_per_second_), 1LL);
   if (seconds_per_step <= 0.0) return 1;
@@ -53,7 +53,7 @@ std::int64_t Pace::steps_to_next_picture(double seconds_per_step) const {
   return std::clamp<std::int64_t>(std::llround(chunk_s / seconds_per_step), 1, most);
 }
 
-Engine::Clock::time_point Pace::next_due(std::int64_t steps) {
+Engine::Clock::time_point StepSchedule::next_due(std::int64_t steps) {
   if (steps_per_second_ <= 0.0) return {};
   const auto now = Engine::Clock::now();
   if (steps == 0) return now + std::chrono::milliseconds(1);

@@ -1,4 +1,4 @@
-// The pace of a case that plays: how many steps come between two pictures, and when.
+// The schedule of a case that plays: how many steps come between two pictures, and when.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace tidemark::engine {
 
-class Pace {
+class StepSchedule {
  public:
   // At most so many steps a second from now on; 0: as many as can be computed.
   void set(double steps_per_second);
