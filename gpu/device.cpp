@@ -63,8 +63,11 @@ Status Device::start(const DeviceOptions& options) {
   TIDEMARK_TRY(make_current());
   capabilities_ = query_capabilities();
   if (options.as_gpu) capabilities_.software = false;
-  if (options.largest_texture > 0)
-    capabilities_.largest_texture = std::min(capabilities_.largest_texture, options.largest_texture);
+  const auto limit = [](std::int64_t& largest, std::int64_t option) {
+    if (option > 0) largest = std::min(largest, option);
+  };
+  limit(capabilities_.largest_texture, options.largest_texture);
+  limit(capabilities_.largest_volume_texture, options.largest_volume_texture);
   const bool wants_compute = options.version == GlVersion::gl45;
   if (!(wants_compute ? capabilities_.at_least(4, 5) : capabilities_.at_least(3, 3))) {
     return fail(ErrorKind::capability, "OpenGL {} is needed; {} offers {}.{}", wants_compute ? "4.5" : "3.3",

@@ -19,7 +19,9 @@ struct DeviceOptions {
   GlVersion version = GlVersion::gl45;  // a core context of exactly this version
   bool debug = false;                   // KHR_debug: messages are counted and logged, objects carry labels
   bool as_gpu = false;                  // tests: takes the paths of a GPU, even if a processor plays it
-  std::int64_t largest_texture = 0;     // tests: texels along an axis at most; 0: as the driver says
+  // Tests: texels along an axis at most, of 2D and 3D textures; 0: as the driver says.
+  std::int64_t largest_texture = 0;
+  std::int64_t largest_volume_texture = 0;
 };
 
 // Objects that contexts of a share group have in common, and objects that belong to one context.

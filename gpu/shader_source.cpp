@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 
@@ -51,6 +52,12 @@ class Assembler {
 };
 
 }  // namespace
+
+void add(Defines& defines, const Defines& more) {
+  std::ranges::copy_if(more, std::back_inserter(defines), [&](const auto& define) {
+    return std::ranges::find(defines, define) == defines.end();
+  });
+}
 
 Result<std::string> read_shader(std::string_view path) {
   if (const char* folder = std::getenv("TIDEMARK_SHADERS"); folder != nullptr) {

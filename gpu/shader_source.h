@@ -14,6 +14,9 @@ namespace tidemark::gpu {
 // Name and value; the value may be empty.
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
+// Adds those that are not there yet.
+void add(Defines& defines, const Defines& more);
+
 // The text of a shader file, by its path below resources/shaders.
 using ShaderReader = std::function<Result<std::string>(std::string_view path)>;
 

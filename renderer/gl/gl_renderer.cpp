@@ -15,11 +15,11 @@ namespace {
 // Texture units.
 constexpr int kPhiUnit = 0;
 constexpr int kSourceUnit = 3;
-constexpr LabelPicture::Units kLabelUnits{5, 10, 11, 12};
-constexpr int kFreeUnit = 6;  // and the three behind it
+constexpr LabelPicture::Units kLabelUnits{5, 15, 10};
+constexpr int kFreeUnit = 6;        // and the three behind it
+constexpr int kConstraintUnit = 8;  // of slices, which need one of those
 constexpr int kSpeedUnit = 13;
-constexpr int kConstraintUnit = 14;
-constexpr int kImagesUnit = 15;
+constexpr int kImagesUnit = 15;  // of slices, which need no labels of pages
 
 solver::StepConstants<float> constants_of(const std::shared_ptr<const Volume>& source,
                                           const solver::Parameters& parameters) {
@@ -61,8 +61,7 @@ GlRenderer::GlRenderer(std::shared_ptr<gpu::Device> device, std::shared_ptr<cons
 
 Result<std::unique_ptr<GlRenderer>> GlRenderer::create(std::shared_ptr<gpu::Device> device,
                                                        std::shared_ptr<const Volume> source,
-                                                       const PageLayout& layout,
-                                                       std::int64_t largest_volume) {
+                                                       const PageLayout& layout) {
   if (layout.domain_size() != source->geometry.size) {
     return fail(ErrorKind::usage, "the pages are not those of the volume");
   }
@@ -72,8 +71,7 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create(std::shared_ptr<gpu::Devi
   auto slots = gpu::SamplerSlots::create(gl);
   if (!slots) return pass_on(slots);
   renderer->slots_ = std::move(*slots);
-  const std::int64_t largest = std::min(largest_volume, gl.capabilities().largest_volume_texture);
-  auto source_picture = SourcePicture::create(gl, *renderer->source_, layout, largest);
+  auto source_picture = SourcePicture::create(gl, *renderer->source_, layout);
   if (!source_picture) return pass_on(source_picture);
   renderer->source_picture_ = std::move(*source_picture);
   auto phi = PhiPicture::create(gl, layout, solver::default_band(renderer->source_->geometry));
@@ -138,8 +136,7 @@ Status GlRenderer::set_constraints(const solver::Constraints* constraints) {
     if (!made) return pass_on(made);
     constraints_ = std::move(*made);
   }
-  constraints_->show(*constraints);
-  return device_->check("showing walls and anchors");
+  return constraints_->show(*device_, *constraints);
 }
 
 Status GlRenderer::set_labels(const PagedBytes& labels) {
@@ -163,9 +160,10 @@ Result<const gpu::Program*> GlRenderer::find_program(const char* fragment, const
   auto found = programs_.find(key);
   if (found == programs_.end()) {
     gpu::Defines defines = phi_.layout().defines();
+    gpu::add(defines, labels_.defines());
     defines.emplace_back("ANISOTROPIC", "");
     if (device_->capabilities().software) defines.emplace_back("SOFTWARE_RASTERISER", "");
-    defines.insert(defines.end(), variant.begin(), variant.end());
+    gpu::add(defines, variant);
     auto made = gpu::Program::render(*device_, "render/full_view.vert", "", fragment, defines);
     if (!made) return pass_on(made);
     if (programs_.size() == kMostPrograms) {
@@ -228,7 +226,7 @@ Result<const gpu::Program*> GlRenderer::use_volume_program(const char* fragment,
   SpeedPicture* map = maps_.of(view);
   if (map != nullptr) {
     TIDEMARK_TRY(map->fill_pages(*device_, phi_.layout().layout(), phi_.page_entries()));
-    for (const auto& define : map->defines()) variant.push_back(define);
+    gpu::add(variant, map->defines());
   }
   const gpu::Defines shading = shading_defines(view);
   variant.insert(variant.end(), shading.begin(), shading.end());
@@ -313,12 +311,10 @@ Status GlRenderer::draw_on(Canvas& canvas, const SliceView& view, const Progress
   SpeedPicture* map = maps_.of(view);
   if (map != nullptr) {
     TIDEMARK_TRY(map->fill_plane(*device_, voxel_from_view));
-    for (const auto& define : map->defines()) variant.push_back(define);
+    gpu::add(variant, map->defines());
     if (view.content == SliceContent::source) variant.emplace_back("CHANGE", "");
   }
-  if (constraints_) {
-    for (const auto& define : constraints_->defines()) variant.push_back(define);
-  }
+  if (constraints_) gpu::add(variant, constraints_->defines());
   auto program = use_program("render/slice.frag", variant, map);
   if (!program) return pass_on(program);
   const gpu::Program& slice = **program;

@@ -25,13 +25,12 @@ namespace tidemark::renderer {
 
 class GlRenderer final : public Renderer {
  public:
-  // Pictures of level sets on `source` in pages of this layout. A source with more than `largest_volume`
-  // voxels along an axis, or more than the driver allows, is never kept as a 3D texture: it is drawn from
-  // slices. Fails (ErrorKind::capability) where the driver lacks what is needed.
+  // Pictures of level sets on `source` in pages of this layout. A source with more voxels along an axis than
+  // the driver allows is never kept as a 3D texture: it is drawn from slices. Fails (ErrorKind::capability)
+  // where the driver lacks what is needed.
   static Result<std::unique_ptr<GlRenderer>> create(std::shared_ptr<gpu::Device> device,
                                                     std::shared_ptr<const Volume> source,
-                                                    const PageLayout& layout,
-                                                    std::int64_t largest_volume = 1 << 30);
+                                                    const PageLayout& layout);
 
   [[nodiscard]] std::string_view name() const override { return "gl"; }
   [[nodiscard]] const Volume& source() const override { return *source_; }

@@ -2,23 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
 #include <utility>
 
 namespace tidemark::renderer {
 namespace {
 
-Result<gpu::Texture3D> texture_of(gpu::Device& device, gpu::TexelFormat format, const PagedBytes& values,
-                                  std::string_view label) {
-  const std::vector<std::uint8_t> voxels = values.voxels();
-  return gpu::Texture3D::create(device, format, values.size(), std::as_bytes(std::span(voxels)), label);
-}
+// A block as a texture has it; beyond the volume's end there is `rest`.
+using Block = std::array<std::uint8_t, 512>;
 
-void upload(gpu::Texture3D& texture, const PagedBytes& values, const VoxelRange& box) {
-  if (box.empty()) return;
-  const Index3 shape = box.high - box.low;
-  std::vector<std::uint8_t> packed(static_cast<std::size_t>(shape.x * shape.y * shape.z));
-  values.read(box.low, shape, packed.data());
-  texture.upload(box.low, shape, std::as_bytes(std::span(packed)));
+Block block_of(const PagedBytes& values, Index3 first, Index3 shape, std::uint8_t rest) {
+  std::array<std::uint8_t, 512> voxels;
+  values.read(first, shape, voxels.data());
+  Block block;
+  block.fill(rest);
+  solver::to_blocks(shape, voxels.data(), block.data());
+  return block;
 }
 
 }  // namespace
@@ -26,15 +27,10 @@ void upload(gpu::Texture3D& texture, const PagedBytes& values, const VoxelRange&
 Result<LabelPicture> LabelPicture::create(gpu::Device& device, const PageLayout& layout) {
   LabelPicture picture;
   picture.volume_ = LabelVolume(layout);
-  const std::vector<std::uint8_t> none(1);
-  auto voxels = gpu::Texture3D::create(device, gpu::TexelFormat::r8ui, Index3(1),
-                                       std::as_bytes(std::span(none)), "no labels");
-  if (!voxels) return pass_on(voxels);
-  picture.voxels_ = std::move(*voxels);
-  auto shares = gpu::Texture3D::create(device, gpu::TexelFormat::r8, Index3(1),
-                                       std::as_bytes(std::span(none)), "no borders of labels");
-  if (!shares) return pass_on(shares);
-  picture.shares_ = std::move(*shares);
+  auto blocks = solver::VolumeBlocks::create(device, layout.domain_size(),
+                                             {gpu::TexelFormat::r8ui, gpu::TexelFormat::r8}, "labels");
+  if (!blocks) return pass_on(blocks);
+  picture.blocks_ = std::move(*blocks);
   auto colours = gpu::Texture2D::create(device, gpu::TexelFormat::rgba8, kLabels, 1, "colours of labels");
   if (!colours) return pass_on(colours);
   picture.colours_ = std::move(*colours);
@@ -51,29 +47,70 @@ Result<LabelPicture> LabelPicture::create(gpu::Device& device, const PageLayout&
 }
 
 Status LabelPicture::set_voxels(gpu::Device& device, const PagedBytes& voxels) {
-  if (!has_voxels_ && voxels.empty()) return {};
-  if (!has_voxels_) {
-    auto texture = texture_of(device, gpu::TexelFormat::r8ui, voxels, "labels");
-    if (!texture) return pass_on(texture);
-    voxels_ = std::move(*texture);
-  }
   const VoxelRange changed = volume_.set_voxels(voxels);
-  if (std::exchange(has_voxels_, true)) upload(voxels_, voxels, changed);
   if (!changed.empty()) upload_pages();
-  return device.check("showing labels");
+  return upload(device, changed);
 }
 
 Status LabelPicture::prepare_borders(gpu::Device& device) {
-  if (!has_voxels_) return {};
-  const VoxelRange changed = volume_.prepare_borders();
-  if (has_shares_) {
-    upload(shares_, volume_.shares(), changed);
-    return device.check("showing borders of labels");
+  return upload(device, volume_.prepare_borders());
+}
+
+// Blocks without a label take no memory. What could not be uploaded is so the next time.
+Status LabelPicture::upload(gpu::Device& device, const VoxelRange& changed) {
+  VoxelRange& box = to_upload_;
+  if (box.empty()) {
+    box = changed;
+  } else if (!changed.empty()) {
+    box = {glm::min(box.low, changed.low), glm::max(box.high, changed.high)};
   }
-  auto texture = texture_of(device, gpu::TexelFormat::r8, volume_.shares(), "borders of labels");
-  if (!texture) return pass_on(texture);
-  shares_ = std::move(*texture);
-  has_shares_ = true;
+  if (box.empty()) return {};
+  constexpr std::size_t kBlocksAtATime = 4096;
+  constexpr std::uint8_t kAll = LabelVolume::kAll;
+  const PageLayout& layout = blocks_.layout();
+  std::vector<std::int64_t> written;
+  std::vector<std::int64_t> empty;
+  std::vector<Block> labels;
+  std::vector<Block> lacks;
+  const auto write = [&]() -> Status {
+    const std::array<solver::PackedTextures::Texels, 2> texels{
+        [&](std::size_t i) { return labels[i].data(); }, [&](std::size_t i) { return lacks[i].data(); }};
+    TIDEMARK_TRY(blocks_.write(device, written, texels));
+    written.clear();
+    labels.clear();
+    lacks.clear();
+    return {};
+  };
+  const Index3 first = box.low / layout.page_shape();
+  const Index3 last = (box.high - Index3(1)) / layout.page_shape();
+  for (std::int64_t z = first.z; z <= last.z; ++z) {
+    for (std::int64_t y = first.y; y <= last.y; ++y) {
+      for (std::int64_t x = first.x; x <= last.x; ++x) {
+        const std::int64_t block = layout.page_number({x, y, z});
+        const Index3 voxel = layout.first_voxel(block);
+        const Index3 shape = layout.valid_shape(block);
+        if (volume_.voxels().even_value(voxel, shape) == 0 &&
+            volume_.shares().even_value(voxel, shape) == kAll) {
+          empty.push_back(block);
+          continue;
+        }
+        const Block label = block_of(volume_.voxels(), voxel, shape, 0);
+        Block lack = block_of(volume_.shares(), voxel, shape, kAll);
+        for (std::uint8_t& value : lack) value = static_cast<std::uint8_t>(kAll - value);
+        if (label == Block{} && lack == Block{}) {
+          empty.push_back(block);
+          continue;
+        }
+        written.push_back(block);
+        labels.push_back(label);
+        lacks.push_back(lack);
+        if (written.size() == kBlocksAtATime) TIDEMARK_TRY(write());
+      }
+    }
+  }
+  blocks_.remove(empty);
+  TIDEMARK_TRY(write());
+  box = {};
   return {};
 }
 
@@ -88,12 +125,12 @@ void LabelPicture::upload_pages() {
 }
 
 void LabelPicture::set_uniforms(const gpu::Program& program, const Units& units) const {
-  voxels_.bind(static_cast<unsigned>(units.voxels));
+  blocks_.bind(units.voxels);
   program.set("labels", units.voxels);
+  program.set("label_lacks", units.voxels + 1);
+  program.set("label_table", units.voxels + 2);
   colours_.bind(static_cast<unsigned>(units.colours));
   program.set("label_colours", units.colours);
-  shares_.bind(static_cast<unsigned>(units.shares));
-  program.set("label_shares", units.shares);
   page_texture_.bind(static_cast<unsigned>(units.pages));
   program.set("page_labels", units.pages);
   if (!program.has_uniform("visible_labels[0]")) return;

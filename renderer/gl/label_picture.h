@@ -9,6 +9,7 @@
 #include "gpu/program.h"
 #include "gpu/texture.h"
 #include "renderer/label_volume.h"
+#include "solver/gl/volume_blocks.h"
 
 namespace tidemark::renderer {
 
@@ -30,20 +31,20 @@ class LabelPicture {
   // (ErrorKind::capability) when memory is short.
   Status prepare_borders(gpu::Device& device);
 
-  // The uniforms of render/labels.glsl, and page_labels.
+  // The variant of shaders, and the uniforms of render/labels.glsl and page_labels. Voxels take three units.
   struct Units {
-    int voxels, colours, pages, shares;
+    int colours, pages, voxels;
   };
+  [[nodiscard]] gpu::Defines defines() const { return blocks_.defines(); }
   void set_uniforms(const gpu::Program& program, const Units& units) const;
 
  private:
+  Status upload(gpu::Device& device, const VoxelRange& changed);
   void upload_pages();
 
   LabelVolume volume_;
-  gpu::Texture3D voxels_;  // one voxel until there are labels; so are the shares until borders are needed
-  gpu::Texture3D shares_;
-  bool has_voxels_ = false;
-  bool has_shares_ = false;
+  solver::VolumeBlocks blocks_;  // labels, and what their shares lack of LabelVolume::kAll
+  VoxelRange to_upload_;
   gpu::Texture2D colours_;
   gpu::Buffer page_buffer_;
   gpu::BufferTexture page_texture_;

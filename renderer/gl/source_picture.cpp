@@ -7,14 +7,14 @@
 
 namespace tidemark::renderer {
 Result<SourcePicture> SourcePicture::create(gpu::Device& device, const Volume& source,
-                                            const PageLayout& layout, std::int64_t largest) {
+                                            const PageLayout& layout) {
   SourcePicture picture;
   picture.opacity_ = PageOpacity(layout);
   picture.unit_ = 1.0F / glm::vec3(source.geometry.size);
   const auto [format, scale] = stored_as(source);
   picture.scale_ = scale;
   const Index3 size = source.geometry.size;
-  picture.has_volume_ = std::max({size.x, size.y, size.z}) <= largest;
+  picture.has_volume_ = std::max({size.x, size.y, size.z}) <= device.capabilities().largest_volume_texture;
   const auto make_texture = [&, format = format](Index3 extent, std::span<const std::byte> texels) {
     return gpu::Texture3D::create(device, format, extent, texels, "source for pictures", gpu::Filter::linear);
   };

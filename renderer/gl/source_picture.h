@@ -15,10 +15,9 @@ namespace tidemark::renderer {
 class SourcePicture {
  public:
   SourcePicture() = default;
-  // Volumes with more than `largest` voxels along an axis get no texture. Fails (ErrorKind::capability) when
-  // memory is short.
-  static Result<SourcePicture> create(gpu::Device& device, const Volume& source, const PageLayout& layout,
-                                      std::int64_t largest);
+  // Volumes with more voxels along an axis than the driver allows get no texture. Fails
+  // (ErrorKind::capability) when memory is short.
+  static Result<SourcePicture> create(gpu::Device& device, const Volume& source, const PageLayout& layout);
 
   // Whether there is a texture. If not, pictures are made from slices (SourceStack, source_on_plane()).
   [[nodiscard]] bool has_volume() const { return has_volume_; }

@@ -7,26 +7,16 @@ namespace tidemark::renderer {
 
 void SpeedPicture::set_function(std::shared_ptr<const solver::SpeedFunction> function) {
   function_ = std::move(function);
-  if (!is_evaluated()) textures_.reset();
+  if (!is_evaluated()) textures_ = solver::SpeedTextures(blocks_.domain_size(), 0, false);
 }
 
 gpu::Defines SpeedPicture::defines() const {
-  if (!is_evaluated()) return {};
-  return {{"SPEED_VOLUME", ""}};
-}
-
-Status SpeedPicture::make_textures(gpu::Device& device) {
-  if (!textures_) {
-    auto made = solver::SpeedTextures::create(device, blocks_.domain_size(), 0, false);
-    if (!made) return pass_on(made);
-    textures_ = std::move(*made);
-  }
-  return textures_->set_function(device, function_);
+  return is_evaluated() ? textures_.defines() : gpu::Defines();
 }
 
 Status SpeedPicture::fill_plane(gpu::Device& device, const glm::dmat4& voxel_from_view) {
   if (!is_evaluated()) return {};
-  TIDEMARK_TRY(make_textures(device));
+  TIDEMARK_TRY(textures_.set_function(device, function_));
   const glm::dvec3 middle(voxel_from_view[3]);
   const glm::dvec3 right(voxel_from_view[0]);
   const glm::dvec3 up(voxel_from_view[1]);
@@ -43,27 +33,27 @@ Status SpeedPicture::fill_plane(gpu::Device& device, const glm::dmat4& voxel_fro
         const Index3 voxel = Index3(x, y, z) * kDefaultPageShape;
         const double distance = glm::dot(normal, glm::dvec3(voxel) + 3.5 - middle);
         const glm::dvec3 extent = glm::abs(normal) * kHalfBlock;
-        if (std::abs(distance) <= extent.x + extent.y + extent.z) textures_->want({voxel, Index3(1)});
+        if (std::abs(distance) <= extent.x + extent.y + extent.z) textures_.wanted().want({voxel, Index3(1)});
       }
     }
   }
-  return textures_->fill(device);
+  return textures_.fill(device);
 }
 
 Status SpeedPicture::fill_pages(gpu::Device& device, const PageLayout& layout,
                                 const std::vector<solver::PhysicalPage>& entries) {
   if (!is_evaluated()) return {};
-  TIDEMARK_TRY(make_textures(device));
+  TIDEMARK_TRY(textures_.set_function(device, function_));
   std::vector<std::int64_t> pages;
   for (std::size_t page = 0; page < entries.size(); ++page) {
     if (entries[page] >= solver::kFirstPage) pages.push_back(static_cast<std::int64_t>(page));
   }
-  textures_->want_around(layout, pages, Index3(0));
-  return textures_->fill(device);
+  textures_.wanted().want_around(layout, pages, Index3(0));
+  return textures_.fill(device);
 }
 
 void SpeedPicture::set_uniforms(const gpu::Program& program, int unit) const {
-  if (textures_) textures_->set_uniforms(program, unit);
+  textures_.set_uniforms(program, unit);
 }
 
 }  // namespace tidemark::renderer

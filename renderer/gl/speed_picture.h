@@ -3,7 +3,6 @@
 
 #include <glm/mat4x4.hpp>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "solver/gl/speed_textures.h"
@@ -14,7 +13,8 @@ namespace tidemark::renderer {
 class SpeedPicture {
  public:
   SpeedPicture() = default;
-  explicit SpeedPicture(Index3 volume_size) : blocks_(volume_size, kDefaultPageShape) {}
+  explicit SpeedPicture(Index3 volume_size)
+      : blocks_(volume_size, kDefaultPageShape), textures_(volume_size, 0, false) {}
 
   // Null, or a tent: pictures compute D from the source. Memory is taken when a picture first shows it.
   void set_function(std::shared_ptr<const solver::SpeedFunction> function);
@@ -33,11 +33,9 @@ class SpeedPicture {
   void set_uniforms(const gpu::Program& program, int unit) const;
 
  private:
-  Status make_textures(gpu::Device& device);
-
   PageLayout blocks_;
   std::shared_ptr<const solver::SpeedFunction> function_;
-  std::optional<solver::SpeedTextures> textures_;
+  solver::SpeedTextures textures_;
 };
 
 }  // namespace tidemark::renderer

@@ -91,7 +91,7 @@ bool ComputeExecutor::shared_apron() const {
 
 Status ComputeExecutor::compile_paint() {
   gpu::Defines defines = layout_.defines();
-  for (const auto& define : drive_textures_.constraint_defines()) defines.push_back(define);
+  gpu::add(defines, drive_textures_.constraint_defines());
   if (defines == paint_defines_) return {};
   auto paint = gpu::Program::compute(*device_, "solver/compute/paint.comp", defines);
   if (!paint) return pass_on(paint);
@@ -102,9 +102,8 @@ Status ComputeExecutor::compile_paint() {
 
 Status ComputeExecutor::compile_update() {
   gpu::Defines defines = layout_.defines();
-  for (const gpu::Defines& more : {step_defines(model_), drive_textures_.defines()}) {
-    defines.insert(defines.end(), more.begin(), more.end());
-  }
+  gpu::add(defines, step_defines(model_));
+  gpu::add(defines, drive_textures_.defines());
   // A software driver runs the columns along x in the lanes of a vector, and its shared memory is slow.
   const std::int64_t block = shared_apron() ? 1 : layout_.layout().page_shape().y;
   defines.emplace_back("BLOCK", fmt::to_string(block));
@@ -238,9 +237,8 @@ void ComputeExecutor::order_new_window(int now, bool judge_motion, bool wake_all
   rebuild_.set("wake_all", wake_all ? 1 : 0);
   memory_.field().phi(now).bind_image(0, true);
   memory_.field().phi(1 - now).bind_image(1, true);
-  constexpr std::int64_t kGroupsPerRow = 32768;  // as in page_memory.glsl
   const std::int64_t pages = memory_.capacity() - kFirstPage;
-  gpu::dispatch({static_cast<int>(std::min(pages, kGroupsPerRow)),
+  gpu::dispatch({static_cast<int>(std::min<std::int64_t>(pages, kGroupsPerRow)),
                  static_cast<int>((pages + kGroupsPerRow - 1) / kGroupsPerRow), 1});
   gpu::finish_writes();
 }
@@ -323,15 +321,15 @@ Status ComputeExecutor::activate_pages() {
 }
 
 // Readies a run of at most so many steps; returns how many it may have. No page may wait inside of a run for
-// what the processor evaluates.
+// what the processor fills.
 Result<std::int64_t> ComputeExecutor::prepare_run(std::int64_t steps) {
   TIDEMARK_TRY(follow_surface());
   if (speed_->follows_surface()) {
     steps = std::min<std::int64_t>(steps, kConvergenceWindow - steps_in_window_);
   }
-  if (!drive_textures_.is_evaluated()) return steps;
+  if (!drive_textures_.is_filled()) return steps;
   constexpr std::int64_t kMostSteps = DriveTextures::kMostStepsOfARun;
-  TIDEMARK_TRY(drive_textures_.fill_around(*device_, layout_.layout(), memory_.resident_pages(), kMostSteps));
+  TIDEMARK_TRY(fill_drive(memory_.resident_pages(), kMostSteps));
   return std::min(steps, kMostSteps);
 }
 

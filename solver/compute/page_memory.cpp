@@ -60,7 +60,6 @@ Result<PageMemory> PageMemory::create(gpu::Device& device, const PackedLayout& l
   memory.states_.upload_values<ComputePageState>(0, states);
   memory.active_list_.upload_values<std::int32_t>(0, active);
   ComputeControl first{};
-  constexpr std::uint32_t kGroupsPerRow = 32768;  // as in page_memory.glsl
   const auto count = static_cast<std::uint32_t>(active.size());
   first.active_count = count;
   first.active_groups[0] = std::clamp<std::uint32_t>(count, 1, kGroupsPerRow);

@@ -12,6 +12,9 @@
 
 namespace tidemark::solver {
 
+// Work groups of a dispatch stand in rows of so many, as in page_memory.glsl.
+inline constexpr std::uint32_t kGroupsPerRow = 32768;
+
 // The layout of the shaders (std430).
 struct ComputeControl {
   std::uint32_t active_groups[4];  // dispatch arguments

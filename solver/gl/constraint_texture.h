@@ -1,9 +1,9 @@
-// Walls and anchors as a texture over the volume, a byte a voxel
+// Walls and anchors as a volume on the GPU, a byte a voxel of the blocks that have any
 // (resources/shaders/solver/speed/constraints.glsl).
 #pragma once
 
 #include "gpu/program.h"
-#include "gpu/texture.h"
+#include "solver/gl/volume_blocks.h"
 #include "solver/speed/constraints.h"
 
 namespace tidemark::solver {
@@ -11,18 +11,22 @@ namespace tidemark::solver {
 class ConstraintTexture {
  public:
   ConstraintTexture() = default;
-  // No voxel is constrained at first. Fails (ErrorKind::capability) when the volume is beyond the driver's
-  // limit or its memory.
+  // No voxel is constrained at first. Fails (ErrorKind::capability) when the driver's limits or its memory
+  // are too small.
   static Result<ConstraintTexture> create(gpu::Device& device, Index3 volume_size);
 
-  // Writes the pages that are others than before.
-  void show(const Constraints& constraints);
+  // Writes the pages that are others than before. Fails (ErrorKind::capability) when memory is short; it
+  // shows what it did then.
+  Status show(gpu::Device& device, const Constraints& constraints);
+  [[nodiscard]] std::int64_t bytes() const { return blocks_.bytes(); }
 
-  [[nodiscard]] gpu::Defines defines() const { return {{"CONSTRAINED", ""}}; }
+  // CONSTRAINED; kUnits units from `unit` on.
+  static constexpr int kUnits = 2;
+  [[nodiscard]] gpu::Defines defines() const;
   void set_uniforms(const gpu::Program& program, int unit) const;
 
  private:
-  gpu::Texture3D texture_;
+  VolumeBlocks blocks_;
   Constraints shown_;
 };
 

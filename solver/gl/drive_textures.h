@@ -7,6 +7,7 @@
 #include <span>
 
 #include "solver/gl/constraint_texture.h"
+#include "solver/gl/source_texture.h"
 #include "solver/gl/speed_textures.h"
 #include "solver/gl/step_uniforms.h"
 
@@ -15,36 +16,41 @@ namespace tidemark::solver {
 class DriveTextures {
  public:
   DriveTextures() = default;
-  // The tent on the source, without walls. Fails (ErrorKind::capability) when the volume is beyond the
-  // driver's limit or its memory.
-  static Result<DriveTextures> create(gpu::Device& device, const Volume& source,
+  // The tent on the source, without walls. Fails (ErrorKind::capability) when the driver's limits or its
+  // memory are too small.
+  static Result<DriveTextures> create(gpu::Device& device, std::shared_ptr<const Volume> source,
                                       std::shared_ptr<const SpeedFunction> tent, int threads);
 
   // On failure (ErrorKind::capability) they are as before. The same function again changes nothing.
   Status set_speed(gpu::Device& device, std::shared_ptr<const SpeedFunction> speed);
   Status set_constraints(gpu::Device& device, const Constraints* constraints);
 
-  // Of all but the source: what such a function and such walls take, or would take.
-  [[nodiscard]] static std::int64_t bytes_for(Index3 volume_size, const SpeedFunction& speed,
-                                              const Constraints* constraints);
+  // Of all but a source in one texture: what is there, and the least that such a function and such walls take
+  // on so many resident voxels.
   [[nodiscard]] std::int64_t bytes() const;
+  [[nodiscard]] static std::int64_t least_bytes(std::int64_t resident_voxels, const SpeedFunction& speed,
+                                                const Constraints* constraints);
 
-  // A run of steps must not be longer where the processor evaluates D: the surface moves less than a voxel a
-  // step.
+  // Whether the processor fills what steps read: around resident pages, and as far as the surface comes in a
+  // run, which must not be longer than that. The surface moves less than a voxel a step.
+  [[nodiscard]] bool is_filled() const { return wanted() != nullptr; }
   static constexpr std::int64_t kMostStepsOfARun = 8;
-  [[nodiscard]] bool is_evaluated() const { return speed_textures_.has_value(); }
-  // Evaluates D around resident pages, as far as the surface comes in so many steps.
-  Status fill_around(gpu::Device& device, const PageLayout& layout, std::span<const std::int64_t> pages,
-                     std::int64_t steps);
+  void want_around(const PageLayout& layout, std::span<const std::int64_t> pages, std::int64_t steps);
+  // bytes() with what is wanted, which fill() makes. It fails (ErrorKind::capability) when memory is short.
+  [[nodiscard]] std::int64_t bytes_wanted() const;
+  Status fill(gpu::Device& device);
 
-  // The variant of the shaders; kUnits textures from `unit` on, and one for walls and anchors alone.
-  static constexpr int kUnits = 4;
+  // The variant of the shaders; textures from `unit` on, and those of walls and anchors alone.
   [[nodiscard]] gpu::Defines defines() const;
   [[nodiscard]] gpu::Defines constraint_defines() const;
   void set_uniforms(const gpu::Program& program, int unit) const;
   void set_constraint_uniforms(const gpu::Program& program, int unit) const;
 
  private:
+  [[nodiscard]] const FilledBlocks* wanted() const {
+    return speed_textures_ ? &speed_textures_->wanted() : source_.wanted();
+  }
+
   SourceTexture source_;
   Index3 volume_size_{0};
   int threads_ = 0;

@@ -20,7 +20,7 @@ GlExecutor::GlExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<cons
       known_(Field::empty(source_->geometry, band(), page_shape)) {}
 
 Status GlExecutor::make_textures() {
-  auto textures = DriveTextures::create(*device_, *source_, speed_, options_.threads);
+  auto textures = DriveTextures::create(*device_, source_, speed_, options_.threads);
   if (!textures) return pass_on(textures);
   drive_textures_ = std::move(*textures);
   return {};
@@ -42,14 +42,25 @@ Result<std::int64_t> GlExecutor::capacity_for(
               options_.memory_budget_bytes >> 20);
 }
 
-Status GlExecutor::check_textures(const SpeedFunction& speed, const Constraints* constraints) const {
-  const MemoryReport present = memory();
-  const std::int64_t bytes = present.state_bytes - drive_textures_.bytes() +
-                             DriveTextures::bytes_for(source_->geometry.size, speed, constraints);
-  if (bytes <= present.state_bytes || bytes <= options_.memory_budget_bytes) return {};
+Status GlExecutor::check_budget(std::int64_t textures) const {
+  const std::int64_t bytes = memory().state_bytes - drive_textures_.bytes() + textures;
+  if (textures <= drive_textures_.bytes() || bytes <= options_.memory_budget_bytes) return {};
   return fail(ErrorKind::capability,
               "the surface with what drives it needs {} MB, and the memory budget is {} MB", bytes >> 20,
               options_.memory_budget_bytes >> 20);
+}
+
+Status GlExecutor::check_drive(const SpeedFunction& speed, const Constraints* constraints) const {
+  const std::int64_t voxels = memory().resident_pages * layout_.layout().voxels_per_page();
+  return check_budget(DriveTextures::least_bytes(voxels, speed, constraints));
+}
+
+Status GlExecutor::fill_drive(std::span<const std::int64_t> pages, std::int64_t steps) {
+  drive_textures_.want_around(layout_.layout(), pages, steps);
+  TIDEMARK_TRY(check_budget(drive_textures_.bytes_wanted()));
+  TIDEMARK_TRY(drive_textures_.fill(*device_));
+  peak_bytes_ = std::max(peak_bytes_, memory().state_bytes);
+  return {};
 }
 
 Status GlExecutor::restore(const Field& phi) {
@@ -70,7 +81,7 @@ Status GlExecutor::set_constraints(std::shared_ptr<const Constraints> constraint
   if (constraints != nullptr) {
     TIDEMARK_TRY(check_fits(*constraints));
   }
-  TIDEMARK_TRY(check_textures(*speed_, constraints.get()));
+  TIDEMARK_TRY(check_drive(*speed_, constraints.get()));
   auto phi = snapshot();
   if (!phi) return pass_on(phi);
   const auto former = constraints_;
@@ -102,7 +113,7 @@ Status GlExecutor::use_constraints(std::shared_ptr<const Constraints> constraint
 Status GlExecutor::drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) {
   auto drive = drive_with(parameters, std::move(given));
   if (!drive) return pass_on(drive);
-  TIDEMARK_TRY(check_textures(*drive->used, constraints_.get()));
+  TIDEMARK_TRY(check_drive(*drive->used, constraints_.get()));
   TIDEMARK_TRY(make_current());
   TIDEMARK_TRY(drive_textures_.set_speed(*device_, drive->used));
   take(std::move(*drive));

@@ -46,6 +46,10 @@ class GlExecutor : public ExecutorBase {
   [[nodiscard]] Result<std::int64_t> capacity_for(
       std::int64_t needed, bool copied, const std::function<std::int64_t(std::int64_t)>& state_bytes) const;
 
+  // Fills what drives the surface around resident pages, and as far as it comes in so many steps. Fails
+  // (ErrorKind::capability) when that takes more than the memory budget allows.
+  Status fill_drive(std::span<const std::int64_t> pages, std::int64_t steps);
+
   // How many pages away along each axis the surface can be whose distance a page's voxels hold; no further
   // than the volume goes, however far the band does.
   [[nodiscard]] Index3 band_reach() const;
@@ -61,7 +65,9 @@ class GlExecutor : public ExecutorBase {
  private:
   Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
   Status use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi);
-  [[nodiscard]] Status check_textures(const SpeedFunction& speed, const Constraints* constraints) const;
+  // `textures`: what drives the surface would take so many bytes.
+  [[nodiscard]] Status check_budget(std::int64_t textures) const;
+  [[nodiscard]] Status check_drive(const SpeedFunction& speed, const Constraints* constraints) const;
 };
 
 }  // namespace tidemark::solver

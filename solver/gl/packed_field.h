@@ -5,9 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "gpu/texture.h"
 #include "solver/field.h"
-#include "solver/gl/packed_layout.h"
+#include "solver/gl/packed_textures.h"
 
 namespace tidemark::solver {
 
@@ -22,15 +21,13 @@ class PackedField {
                                     float band, int buffers = 2);
 
   // Enlarges G by copy. On failure it is as before.
-  Status grow(gpu::Device& device, std::int64_t capacity);
+  Status grow(gpu::Device& device, std::int64_t capacity) { return textures_.grow(device, capacity); }
 
-  [[nodiscard]] const PackedLayout& layout() const { return layout_; }
-  [[nodiscard]] std::int64_t capacity() const { return capacity_; }
-  [[nodiscard]] std::int64_t bytes() const {
-    return static_cast<std::int64_t>(phi_.size()) * phi_[0].bytes();
-  }
+  [[nodiscard]] const PackedLayout& layout() const { return textures_.layout(); }
+  [[nodiscard]] std::int64_t capacity() const { return textures_.capacity(); }
+  [[nodiscard]] std::int64_t bytes() const { return textures_.bytes(); }
   [[nodiscard]] const gpu::TextureLayers& phi(int buffer) const {
-    return phi_[static_cast<std::size_t>(buffer)];
+    return textures_[static_cast<std::size_t>(buffer)];
   }
 
   // Writes pages kFirstPage, kFirstPage + 1, ... of all buffers: the stored ones in the order of their
@@ -42,15 +39,9 @@ class PackedField {
   Result<std::vector<float>> download(int buffer) const;
 
  private:
-  static Result<std::vector<gpu::TextureLayers>> make_textures(gpu::Device& device,
-                                                               const PackedLayout& layout,
-                                                               std::int64_t capacity, std::size_t count);
-  void write_static_pages();
+  void write_static_pages(float band);
 
-  PackedLayout layout_;
-  std::int64_t capacity_ = 0;
-  float band_ = 0.0F;
-  std::vector<gpu::TextureLayers> phi_;
+  PackedTextures textures_;
 };
 
 // Makes `phi` what a page table says, from the voxels of all physical pages as PackedField::download() gives

@@ -47,12 +47,16 @@ Index3 PackedLayout::texture_size(std::int64_t capacity) const {
   return {pages_per_row_ * tile_.x, std::min(rows, rows_per_layer_) * tile_.y, layers};
 }
 
-void PackedLayout::pack(const float* voxels, float* tile, std::int64_t row_length) const {
+void PackedLayout::pack(const void* voxels, void* tile, std::int64_t row_length,
+                        std::int64_t value_bytes) const {
   const Index3 shape = layout_.page_shape();
+  const auto* from = static_cast<const std::byte*>(voxels);
   for (std::int64_t z = 0; z < shape.z; ++z) {
-    float* slice = tile + z % tile_columns_ * shape.x + z / tile_columns_ * shape.y * row_length;
+    const std::int64_t slice = z % tile_columns_ * shape.x + z / tile_columns_ * shape.y * row_length;
+    auto* to = static_cast<std::byte*>(tile) + slice * value_bytes;
     for (std::int64_t y = 0; y < shape.y; ++y) {
-      std::copy_n(voxels + (y + shape.y * z) * shape.x, shape.x, slice + y * row_length);
+      to = std::copy_n(from, shape.x * value_bytes, to) + (row_length - shape.x) * value_bytes;
+      from += shape.x * value_bytes;
     }
   }
 }

@@ -21,8 +21,10 @@ class PackedLayout {
   PackedLayout(const PageLayout& layout, const gpu::Capabilities& limits);
 
   [[nodiscard]] const PageLayout& layout() const { return layout_; }
-  [[nodiscard]] glm::i64vec2 tile() const { return tile_; }  // texels
+  [[nodiscard]] glm::i64vec2 tile() const { return tile_; }                  // texels
+  [[nodiscard]] std::int64_t tile_columns() const { return tile_columns_; }  // slices side by side
   [[nodiscard]] std::int64_t pages_per_row() const { return pages_per_row_; }
+  [[nodiscard]] std::int64_t rows_per_layer() const { return rows_per_layer_; }  // of a full one
   // The most physical pages that the driver's textures hold.
   [[nodiscard]] std::int64_t largest_capacity() const { return pages_per_layer() * most_layers_; }
 
@@ -38,7 +40,10 @@ class PackedLayout {
   [[nodiscard]] Index3 texture_size(std::int64_t capacity) const;
 
   // Copies a page's voxels (i fastest) to its tile, whose rows are `row_length` values long, and back.
-  void pack(const float* voxels, float* tile, std::int64_t row_length) const;
+  void pack(const float* voxels, float* tile, std::int64_t row_length) const {
+    pack(voxels, tile, row_length, sizeof(float));
+  }
+  void pack(const void* voxels, void* tile, std::int64_t row_length, std::int64_t value_bytes) const;
   void unpack(const float* tile, std::int64_t row_length, float* voxels) const;
 
   // The defines and the uniforms of paging.glsl.
@@ -49,10 +54,10 @@ class PackedLayout {
   [[nodiscard]] std::int64_t pages_per_layer() const { return pages_per_row_ * rows_per_layer_; }
 
   PageLayout layout_;
-  std::int64_t tile_columns_ = 1;  // slices side by side
+  std::int64_t tile_columns_ = 1;
   glm::i64vec2 tile_{1};
   std::int64_t pages_per_row_ = 1;
-  std::int64_t rows_per_layer_ = 1;  // of a full one
+  std::int64_t rows_per_layer_ = 1;
   std::int64_t most_layers_ = 1;
 };
 

@@ -73,7 +73,7 @@ Status StreamExecutor::replace(const Field& phi) {
 
   pages_ = PagedMemory<3>(layout_.layout(), kUnlimited);
   infos_ = pages_.attach<PageInfo, 1>();
-  viewed_changes_ = evaluated_changes_ = -1;
+  viewed_changes_ = filled_changes_ = -1;
   for (std::int64_t page = 0; page < pages_.layout().page_count(); ++page) {
     if (phi.pages.kind(page) == Field::Kind::inside) pages_.set_static(page, true);
   }
@@ -112,7 +112,7 @@ Status StreamExecutor::compile_for_drive() {
 }
 
 Status StreamExecutor::wake_all_pages() {
-  evaluated_changes_ = -1;
+  filled_changes_ = -1;
   restart_watch(layout_.layout().voxels_per_page());
   begin_window();
   pages_.for_each_resident([&](PhysicalPage page) { wake(page); });

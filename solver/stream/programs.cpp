@@ -50,7 +50,7 @@ Result<RegionPasses> RegionPasses::create(gpu::Device& device, const GeometryEng
 Status RegionPasses::compile_step(gpu::Device& device, const GeometryEngine& geometry,
                                   const DriveTextures& drive, const Model& model) {
   gpu::Defines common = step_defines(model);
-  for (const auto& define : drive.defines()) common.push_back(define);
+  gpu::add(common, drive.defines());
   if (common == step_defines_) return {};
   const gpu::Defines neighbours = {{"NEIGHBOURS", ""}};
   for (const Wanted& wanted : {Wanted{derivatives_[0], Substream::interior, "derivatives", neighbours},

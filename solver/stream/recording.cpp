@@ -94,7 +94,7 @@ Result<PassRecord> StreamExecutor::record_step(std::int64_t page) {
   if (active_list_is_stale_) {
     TIDEMARK_TRY(rebuild_active_list());
   }
-  TIDEMARK_TRY(evaluate_speed());
+  TIDEMARK_TRY(prepare_drive());
   TIDEMARK_TRY(record_phi(record));
   // The passes write phi and motion of these pages.
   const std::vector<PhysicalPage> pages = recorded_pages(record.physical);

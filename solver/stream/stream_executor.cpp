@@ -49,13 +49,13 @@ Status StreamExecutor::start(std::int64_t largest_region) {
   return restore(Field::empty(source_->geometry, band(), kPageShape));
 }
 
-// Has D evaluated wherever the next step reads it.
-Status StreamExecutor::evaluate_speed() {
-  if (!drive_textures_.is_evaluated() || evaluated_changes_ == pages_.table().changes()) return {};
+// Has what drives the surface filled wherever the next step reads it.
+Status StreamExecutor::prepare_drive() {
+  if (!drive_textures_.is_filled() || filled_changes_ == pages_.table().changes()) return {};
   std::vector<std::int64_t> pages;
   pages_.for_each_resident([&](PhysicalPage page) { pages.push_back(pages_.virtual_page(page)); });
-  TIDEMARK_TRY(drive_textures_.fill_around(*device_, layout_.layout(), pages, 1));
-  evaluated_changes_ = pages_.table().changes();
+  TIDEMARK_TRY(GlExecutor::fill_drive(pages, 1));
+  filled_changes_ = pages_.table().changes();
   return {};
 }
 
@@ -101,7 +101,7 @@ Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
   }
   return run_steps(run, [this](AdvanceReport& report) -> Result<bool> {
     if (!active_.empty()) {
-      if (auto evaluated = evaluate_speed(); !evaluated) {
+      if (auto evaluated = prepare_drive(); !evaluated) {
         steps_of_last_run_ = --report.steps;
         return pass_on(evaluated);
       }

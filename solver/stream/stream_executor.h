@@ -57,7 +57,7 @@ class StreamExecutor final : public GlExecutor {
   [[nodiscard]] const PageInfo& info(PhysicalPage page) const { return infos_[page]; }
 
   // Steps (stream_executor.cpp).
-  Status evaluate_speed();
+  Status prepare_drive();
   Status step();
   Result<bool> finish_step(AdvanceReport& report);
 
@@ -115,7 +115,7 @@ class StreamExecutor final : public GlExecutor {
   bool active_list_is_stale_ = true;
   bool needs_activation_ = false;  // the budget stopped an allocation
   std::int64_t quiet_pages_ = 0;
-  std::int64_t evaluated_changes_ = -1;  // of the table, when D was evaluated around its pages
+  std::int64_t filled_changes_ = -1;  // of the table, when D was evaluated around its pages
 
   gpu::Buffer viewed_table_;          // the page table as packed_view() gave it last
   std::int64_t viewed_changes_ = -1;  // of the table, when it did

@@ -61,8 +61,11 @@ Scene ball_scene(const Geometry& geometry, double radius, const std::function<do
   return scene_of(geometry, radius, source, kDefaultPageShape);
 }
 
-std::shared_ptr<gpu::Device> reporting_device(bool as_gpu) {
-  auto device = gpu::Device::create_headless({gpu::GlVersion::gl33, true, as_gpu});
+std::shared_ptr<gpu::Device> reporting_device(bool as_gpu, std::int64_t largest_volume) {
+  auto device = gpu::Device::create_headless({.version = gpu::GlVersion::gl33,
+                                              .debug = true,
+                                              .as_gpu = as_gpu,
+                                              .largest_volume_texture = largest_volume});
   if (!device) qFatal("%s", device.error().message.c_str());
   (*device)->on_message([](bool severe, const std::string& text) {
     if (severe) qFatal("OpenGL: %s", text.c_str());

@@ -29,8 +29,8 @@ Scene ball_scene(const Geometry& geometry, double radius, glm::dvec3 marker = gl
 // The same with a source of one's own.
 Scene ball_scene(const Geometry& geometry, double radius, const std::function<double(glm::dvec3)>& source);
 
-// A device whose messages of high severity end the test program.
-std::shared_ptr<gpu::Device> reporting_device(bool as_gpu = false);
+// A device whose messages of high severity end the test program. `largest_volume` as in gpu::DeviceOptions.
+std::shared_ptr<gpu::Device> reporting_device(bool as_gpu = false, std::int64_t largest_volume = 0);
 
 // What TIDEMARK_TEST_RENDERER names, "host" or "gl": test classes about pictures run with both. OpenGL
 // without it.

@@ -14,7 +14,6 @@ namespace tidemark::test::slice_stack_test {
 namespace {
 
 constexpr renderer::PictureSize kSize{144, 128};
-constexpr std::int64_t kTooSmall = 16;  // a limit of 3D textures that no test's volume keeps
 
 // A function of the place as seen from the volume's middle.
 std::vector<float> sample_around_middle(const Geometry& geometry,
@@ -64,8 +63,15 @@ std::shared_ptr<gpu::Device> device() {
   return made;
 }
 
-std::unique_ptr<renderer::Renderer> renderer_of(const Scene& scene, std::int64_t largest_volume = 4096) {
-  auto renderer = renderer::GlRenderer::create(device(), scene.source, scene.phi.layout, largest_volume);
+// No source of a test fits in a 3D texture of its.
+std::shared_ptr<gpu::Device> device_without_room() {
+  static const auto made = reporting_device(false, 16);
+  return made;
+}
+
+std::unique_ptr<renderer::Renderer> renderer_of(const Scene& scene,
+                                                const std::shared_ptr<gpu::Device>& on = device()) {
+  auto renderer = renderer::GlRenderer::create(on, scene.source, scene.phi.layout);
   if (!renderer) qFatal("%s", renderer.error().message.c_str());
   if (Status shown = (*renderer)->set_phi(scene.phi); !shown) qFatal("%s", shown.error().message.c_str());
   return std::move(*renderer);
@@ -216,7 +222,7 @@ class SliceStackTest : public QObject {
   void a_volume_beyond_the_limit_of_3d_textures_is_drawn_from_slices() {
     const Scene both = scene(grid({50, 41, 37}));
     const auto whole = renderer_of(both);
-    const auto beyond = renderer_of(both, kTooSmall);
+    const auto beyond = renderer_of(both, device_without_room());
     renderer::VolumeView view = view_of("surface and source, clip plane");
     view.camera = {33.0, 20.0};
     const renderer::Picture picture = draw_by(renderer::Mode::raycast, *beyond, view);
@@ -234,7 +240,7 @@ class SliceStackTest : public QObject {
   void slice_views_of_a_volume_beyond_the_limit_are_the_same() {
     const Scene both = scene(grid({50, 41, 37}, {1.0, 1.0, 1.3}));
     const auto whole = renderer_of(both);
-    const auto beyond = renderer_of(both, kTooSmall);
+    const auto beyond = renderer_of(both, device_without_room());
     for (const renderer::SliceOrientation& orientation :
          {renderer::kAxial, renderer::kCoronal, renderer::kSagittal, renderer::oblique({0.5, 0.4, 0.7})}) {
       for (const renderer::SliceContent content :

@@ -98,13 +98,13 @@ constexpr renderer::PictureSize kSize{16, 12};
 class Listener {
  public:
   Listener(bool as_gpu, std::int64_t largest_volume, std::vector<gpu::ProgramSource>& found)
-      : scene_(ball_scene(grid({24, 20, 18}), 6.0)), device_(reporting_device(as_gpu)) {
+      : scene_(ball_scene(grid({24, 20, 18}), 6.0)), device_(reporting_device(as_gpu, largest_volume)) {
     device_->on_program([this, &found](const gpu::ProgramSource& program) -> Status {
       found.push_back(program);
       if (compiles_) return {};
       return fail(ErrorKind::internal, kKnown);
     });
-    auto made = renderer::GlRenderer::create(device_, scene_.source, scene_.phi.layout, largest_volume);
+    auto made = renderer::GlRenderer::create(device_, scene_.source, scene_.phi.layout);
     must(made);
     renderer_ = std::move(*made);
     must(renderer_->set_phi(scene_.phi));
@@ -170,19 +170,18 @@ std::vector<gpu::ProgramSource> renderer_variants() {
   const auto speed = [](glm::dvec3) { return 0.5; };
   const auto flow = [](glm::dvec3) { return glm::vec3(0.1F); };
   std::vector<gpu::ProgramSource> programs;
-  constexpr std::int64_t kAnySize = 1 << 30;
-  Listener processor(false, kAnySize, programs);
+  Listener processor(false, 0, programs);
   processor.draw_in_full();
   processor.ask_for_all();
   processor.set_speed(std::make_shared<InDoubt>(speed));
   processor.ask_for_all();
   // Neither the driver nor the source's texture matters to what drives the surface.
-  Listener gpu(true, kAnySize, programs);
+  Listener gpu(true, 0, programs);
   gpu.set_speed(std::make_shared<FormulaSpeed>(speed, flow, 0.2));
   gpu.wall();
   gpu.draw_in_full();
   gpu.ask_for_all();
-  Listener without_volume(true, 1, programs);
+  Listener without_volume(true, 16, programs);
   without_volume.draw_in_full();
   without_volume.ask_for_all();
   return programs;

@@ -13,8 +13,8 @@ struct Driver {
   std::vector<gpu::ProgramSource>& programs;
 
   Driver(const Driver&) = delete;
-  Driver(gpu::GlVersion version, bool as_gpu, std::vector<gpu::ProgramSource>& found) : programs(found) {
-    auto made = gpu::Device::create_headless({version, false, as_gpu});
+  Driver(const gpu::DeviceOptions& options, std::vector<gpu::ProgramSource>& found) : programs(found) {
+    auto made = gpu::Device::create_headless(options);
     if (!made) qFatal("%s", made.error().message.c_str());
     device = std::move(*made);
     device->on_program([this](const gpu::ProgramSource& program) -> Status {
@@ -62,9 +62,9 @@ void drive(solver::ExecutorKind kind, const std::shared_ptr<const Volume>& sourc
 
 std::vector<gpu::ProgramSource> solver_variants() {
   std::vector<gpu::ProgramSource> programs;
-  const Driver gl33(gpu::GlVersion::gl33, false, programs);
-  const Driver processor(gpu::GlVersion::gl45, false, programs);
-  const Driver gpu(gpu::GlVersion::gl45, true, programs);
+  const Driver gl33({.version = gpu::GlVersion::gl33}, programs);
+  const Driver processor({}, programs);
+  const Driver gpu({.as_gpu = true}, programs);
   const auto on_all_drivers = [&](const std::shared_ptr<const Volume>& source, solver::Scheme scheme,
                                   std::initializer_list<Index3> shapes) {
     solver::ExecutorOptions options;
@@ -92,6 +92,18 @@ std::vector<gpu::ProgramSource> solver_variants() {
   const auto split = solver::Scheme::split;
   on_all_drivers(source_with<std::uint16_t>(glm::dvec3(1.0)), split, {Index3(8)});
   on_all_drivers(source_with<float>(glm::dvec3(1.0)), split, {Index3(8)});
+  // No such source fits in one texture.
+  const Driver small_gl33({.version = gpu::GlVersion::gl33, .largest_volume_texture = 8}, programs);
+  const Driver small_gl45({.largest_volume_texture = 8}, programs);
+  solver::ExecutorOptions options;
+  for (const auto& source :
+       {source_with<std::int16_t>(glm::dvec3(1.0)), source_with<std::uint16_t>(glm::dvec3(1.0)),
+        source_with<float>(glm::dvec3(1.0))}) {
+    options.device = small_gl33.device;
+    drive(solver::ExecutorKind::stream, source, split, options);
+    options.device = small_gl45.device;
+    drive(solver::ExecutorKind::compute, source, split, options);
+  }
   return programs;
 }
 

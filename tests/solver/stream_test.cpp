@@ -1,6 +1,7 @@
 // The stream executor: substreams, messages, sub-regions, and agreement with the host.
 #include <random>
 #include <regex>
+#include <set>
 
 #include "gpu/device.h"
 #include "gpu/draw.h"
@@ -185,7 +186,7 @@ class StreamTest : public QObject {
     auto geometry_engine = solver::GeometryEngine::create(*gpu, layout);
     const solver::PhysicalPage list[] = {page};
     QVERIFY(geometry_engine.describe(*gpu, table, list));
-    const auto drive = good(solver::DriveTextures::create(*gpu, *source, tent, 1));
+    const auto drive = good(solver::DriveTextures::create(*gpu, source, tent, 1));
     auto passes = good(solver::RegionPasses::create(*gpu, geometry_engine, drive, model, 32));
     QVERIFY(passes.reserve(*gpu, 1));
     gpu::begin_exact_drawing();
@@ -338,7 +339,9 @@ class StreamTest : public QObject {
     QCOMPARE(options.device->severe_messages(), 0);
   }
 
+  // Volumes in blocks have tables of their own, which say nothing of pages.
   void no_fragment_shader_looks_a_page_up() {
+    const std::set<std::string> of_blocks{"source_table", "speed_table", "constraint_table"};
     const std::regex sampler(R"(uniform\s+(?:highp\s+)?(\w*[sS]ampler\w*|SOURCE_SAMPLER)\s+(\w+))");
     for (const char* name : {"derivatives", "speeds", "update", "neighbours", "page_message", "motion_blocks",
                              "motion_pages", "constant", "copy", "paint"}) {
@@ -347,6 +350,7 @@ class StreamTest : public QObject {
       for (std::sregex_iterator i(source.text.begin(), source.text.end(), sampler), end; i != end; ++i) {
         const std::string type = (*i)[1];
         const std::string uniform = (*i)[2];
+        if (of_blocks.contains(uniform) || uniform.ends_with("_blocks")) continue;
         QVERIFY2(type == "sampler2D" || uniform.ends_with("_volume") ||
                      (type == "sampler2DArray" && uniform.starts_with("phi_")),
                  uniform.c_str());

@@ -1,13 +1,14 @@
 // Walls and anchors over a slice, in the desktop's own colours and patterns: walls red and cross-hatched, anchors green
-// and dotted, so that they are told apart without colours, too.
+// and dotted, so that they are told apart without colours, too. Needs solver/volume_blocks.glsl.
 
-uniform usampler3D constraint_volume;  // as enum class Constraint
+uniform usampler2DArray constraint_blocks;  // as enum class Constraint
+uniform isampler3D constraint_table;
 
 const vec3 kWallColour = vec3(1.0, 0.35, 0.35);
 const vec3 kAnchorColour = vec3(0.47, 0.90, 0.51);
 
 vec3 with_constraint(vec3 colour, ivec3 voxel) {
-  uint constraint = texelFetch(constraint_volume, voxel, 0).r;
+  uint constraint = texelFetch(constraint_blocks, texel_in_blocks(constraint_table, voxel), 0).r;
   if (constraint == 0u || constraint > 2u) return colour;
   bool wall = constraint == 1u;
   vec2 pixel = gl_FragCoord.xy;

@@ -2,6 +2,7 @@
 // 5): interpolated, classified, lit, and laid under what is in front of it. Variants as of volume.frag.
 
 #include "solver/phi.glsl"
+#include "solver/volume_blocks.glsl"
 #include "render/slices.glsl"
 #include "render/shade.glsl"
 #include "render/page_state.glsl"

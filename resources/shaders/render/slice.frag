@@ -4,6 +4,7 @@
 // computes both sides of every branch would work out the speed for every picture.
 
 #include "solver/phi.glsl"
+#include "solver/volume_blocks.glsl"
 #ifdef SOURCE_PLANE
 #include "render/source_plane.glsl"
 #else
@@ -34,7 +35,8 @@ uniform bool nearest;
 uniform bool show_surface;
 uniform bool show_contours;
 uniform float line_pixels;
-uniform usampler3D labels;    // 0: nothing
+uniform usampler2DArray labels;  // 0: nothing
+uniform isampler3D label_table;
 uniform float label_opacity;  // 0 without labels
 uniform sampler2D label_colours;  // by label, 256 in a row; opacity 0 for those that are hidden
 uniform vec3 background;
@@ -139,7 +141,7 @@ void main() {
   beside = with_images(beside);
 #endif
   if (label_opacity > 0.0) {
-    int label = int(texelFetch(labels, nearest_voxel(p), 0).r);
+    int label = int(texelFetch(labels, texel_in_blocks(label_table, nearest_voxel(p)), 0).r);
     vec4 label_colour = texture(label_colours, vec2((float(label) + 0.5) / 256.0, 0.5));
     if (label > 0) colour = mix(colour, label_colour.rgb, label_opacity * label_colour.a);
   }

@@ -10,6 +10,7 @@
 // branch, so that what is done once for a surface must not stand where each step would pay for it.
 
 #include "solver/phi.glsl"
+#include "solver/volume_blocks.glsl"
 #include "render/source.glsl"
 #include "render/shade.glsl"
 #include "render/page_state.glsl"

@@ -1,5 +1,6 @@
 // D of a voxel: the tent on the source, or with SPEED_VOLUME what the processor evaluated.
 
+#include "solver/volume_blocks.glsl"
 #ifdef SPEED_VOLUME
 #include "solver/speed/speed_volume.glsl"
 #else
