@@ -135,8 +135,12 @@ class SpeedFunctionTest : public QObject {
     const auto free = setting.make(scene.source, scene.parameters);
     QCOMPARE(failure(free->paint(scene.seed, solver::Brush::add)), QString());
     run(*free, 3);
+    const auto resident_voxels = [&] {
+      const solver::MemoryReport memory = free->memory();
+      return memory.resident_pages * memory.page_shape.x * memory.page_shape.y * memory.page_shape.z;
+    };
     solver::ExecutorOptions options = setting.options();
-    options.memory_budget_bytes = free->memory().peak_state_bytes * 21 / 20;
+    options.memory_budget_bytes = free->memory().peak_state_bytes + 12 * resident_voxels();
     const auto tested = executor(setting.kind, scene.source, scene.parameters, options);
     QCOMPARE(failure(tested->paint(scene.seed, solver::Brush::add)), QString());
     run(*tested, 3);
@@ -151,10 +155,6 @@ class SpeedFunctionTest : public QObject {
     run(*free, 3);
     QVERIFY(tested->snapshot().value().dense() == free->snapshot().value().dense());
 
-    const auto resident_voxels = [&] {
-      const solver::MemoryReport memory = free->memory();
-      return memory.resident_pages * memory.page_shape.x * memory.page_shape.y * memory.page_shape.z;
-    };
     const std::int64_t before = free->memory().state_bytes;
     QCOMPARE(failure(free->set_speed(lumpy_speed(false))), QString());
     run(*free, 1);
