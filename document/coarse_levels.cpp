@@ -1,5 +1,6 @@
 #include "document/coarse_levels.h"
 
+#include "core/large_pages.h"
 #include "solver/coarse_grid.h"
 #include "solver/speed/coarse_speed.h"
 
@@ -10,7 +11,7 @@ namespace {
 std::shared_ptr<const Volume> grid_alone(const Geometry& geometry) {
   auto volume = std::make_shared<Volume>();
   volume->geometry = geometry;
-  volume->voxels = std::vector<std::int16_t>(static_cast<std::size_t>(geometry.voxel_count()));
+  volume->voxels = make_large_vector<std::int16_t>(static_cast<std::size_t>(geometry.voxel_count()));
   return volume;
 }
 

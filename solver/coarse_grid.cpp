@@ -36,90 +36,136 @@ Between between(std::int64_t fine, std::int64_t factor, std::int64_t coarse_size
           static_cast<float>(place - static_cast<double>(low))};
 }
 
-// phi of a coarse grid at the voxels of one page of the fine grid after the other.
-class PageRefiner {
- public:
-  PageRefiner(const Field& coarse, const CoarseGrid& grid, Field& fine)
-      : coarse_(coarse), grid_(grid), fine_(fine), limit_(static_cast<float>(fine.band)) {}
+// The coarse voxels around those of a page of the fine grid, along an axis.
+struct Reach {
+  std::vector<Between> voxels;  // of the page
+  std::int64_t from = 0;        // the coarse ones that take part
+  std::int64_t size = 1;
+  std::int64_t first_page = 0;  // of the coarse phi, in which they lie
+  std::int64_t last_page = 0;
+};
 
-  void refine(std::int64_t page) {
-    const Index3 first = fine_.layout.first_voxel(page);
-    const Index3 valid = fine_.layout.valid_shape(page);
-    for (int axis = 0; axis < 3; ++axis) place(axis, first[axis], valid[axis]);
-    if (const auto constant = constant_around()) {
-      fine_.pages.set_constant(page, *constant);
-      return;
+// phi of a coarse grid at the voxels of the pages of the fine grid.
+class Refiner {
+ public:
+  Refiner(const Field& coarse, const CoarseGrid& grid, Field& fine)
+      : coarse_(coarse), grid_(grid), fine_(fine), limit_(static_cast<float>(fine.band)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::int64_t page = 0; page < fine.layout.pages()[axis]; ++page) add_reach(axis, page);
     }
-    gather();
-    interpolate(valid);
-    fine_.store_page(page, values_);
+  }
+
+  void run() {
+    const Index3 pages = fine_.layout.pages();
+    for_each_voxel(Index3(0), pages, [&](Index3 page) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        along_[axis] = &reaches_[axis][static_cast<std::size_t>(page[static_cast<int>(axis)])];
+      refine(fine_.layout.page_number(page));
+    });
   }
 
  private:
-  using Axis = std::vector<Between>;
-
-  void place(int axis, std::int64_t first, std::int64_t count) {
-    Axis& places = places_[static_cast<std::size_t>(axis)];
-    places.clear();
-    for (std::int64_t voxel = first; voxel < first + count; ++voxel) {
-      places.push_back(between(voxel, grid_.factor()[axis], grid_.coarse().size[axis]));
+  void add_reach(int axis, std::int64_t page) {
+    const std::int64_t side = fine_.layout.page_shape()[axis];
+    const std::int64_t end = std::min((page + 1) * side, fine_.layout.domain_size()[axis]);
+    Reach reach;
+    for (std::int64_t voxel = page * side; voxel < end; ++voxel)
+      reach.voxels.push_back(between(voxel, grid_.factor()[axis], grid_.coarse().size[axis]));
+    reach.from = reach.voxels.front().low;
+    reach.size = reach.voxels.back().high - reach.from + 1;
+    reach.first_page = reach.from / coarse_.layout.page_shape()[axis];
+    reach.last_page = reach.voxels.back().high / coarse_.layout.page_shape()[axis];
+    for (Between& voxel : reach.voxels) {
+      voxel.low -= reach.from;
+      voxel.high -= reach.from;
     }
-    from_[axis] = places.front().low;
-    size_[axis] = places.back().high - places.front().low + 1;
+    reaches_[static_cast<std::size_t>(axis)].push_back(std::move(reach));
+  }
+
+  void refine(std::int64_t page) {
+    const auto constant = constant_around();
+    if (constant == Field::Kind::outside) return;  // as all of phi is at first
+    if (constant) return fine_.pages.set_constant(page, *constant);
+    gather();
+    interpolate();
+    fine_.store_page(page, values_);
   }
 
   // What stands for the page where no stored page of the coarse phi reaches it.
   [[nodiscard]] std::optional<Field::Kind> constant_around() const {
-    const Index3 shape = coarse_.layout.page_shape();
-    const Index3 low = from_ / shape;
-    const Index3 high = (from_ + size_ - Index3(1)) / shape;
-    const Field::Kind one = kind_at(low);
+    const auto [x, y, z] = along_;
+    const Field::Kind one = kind_at({x->first_page, y->first_page, z->first_page});
     if (one == Field::Kind::stored) return std::nullopt;
-    bool same = true;
-    for_each_voxel(low, high - low + Index3(1), [&](Index3 page) { same = same && kind_at(page) == one; });
-    return same ? std::optional(one) : std::nullopt;
+    for (std::int64_t k = z->first_page; k <= z->last_page; ++k) {
+      for (std::int64_t j = y->first_page; j <= y->last_page; ++j) {
+        for (std::int64_t i = x->first_page; i <= x->last_page; ++i) {
+          if (kind_at({i, j, k}) != one) return std::nullopt;
+        }
+      }
+    }
+    return one;
   }
   [[nodiscard]] Field::Kind kind_at(Index3 page) const {
     return coarse_.pages.kind(coarse_.layout.page_number(page));
   }
 
   void gather() {
+    const auto [x, y, z] = along_;
     block_.clear();
-    for_each_voxel(from_, size_, [&](Index3 voxel) { block_.push_back(coarse_.at(voxel)); });
+    for_each_voxel({x->from, y->from, z->from}, {x->size, y->size, z->size},
+                   [&](Index3 voxel) { block_.push_back(coarse_.at(voxel)); });
   }
 
-  void interpolate(Index3 valid) {
+  // Along one axis after the other: what lies side by side shares the interpolation along the axes before.
+  void interpolate() {
+    const auto [x, y, z] = along_;
+    const auto width = std::ssize(x->voxels);
+    const auto height = std::ssize(y->voxels);
+    rows_.resize(static_cast<std::size_t>(width * y->size * z->size));
+    float* to = rows_.data();
+    for (const float* row = block_.data(); row != block_.data() + block_.size(); row += x->size) {
+      for (const Between& i : x->voxels) *to++ = mixed(row[i.low], row[i.high], i.weight);
+    }
+    planes_.resize(static_cast<std::size_t>(width * height * z->size));
+    to = planes_.data();
+    for (std::int64_t k = 0; k < z->size; ++k) {
+      const float* const rows = rows_.data() + width * y->size * k;
+      for (const Between& j : y->voxels)
+        to = mix(rows + width * j.low, rows + width * j.high, j.weight, width, to);
+    }
     values_.assign(static_cast<std::size_t>(fine_.layout.voxels_per_page()), -limit_);
-    const auto scale = static_cast<float>(grid_.scale());
     const Index3 shape = fine_.layout.page_shape();
-    for_each_voxel(Index3(0), valid, [&](Index3 v) {
-      const Between& x = places_[0][static_cast<std::size_t>(v.x)];
-      const Between& y = places_[1][static_cast<std::size_t>(v.y)];
-      const Between& z = places_[2][static_cast<std::size_t>(v.z)];
-      const auto row = [&](std::int64_t j, std::int64_t k) {
-        const std::int64_t start = size_.x * (j - from_.y + size_.y * (k - from_.z)) - from_.x;
-        const float low = block_[static_cast<std::size_t>(start + x.low)];
-        return low + x.weight * (block_[static_cast<std::size_t>(start + x.high)] - low);
-      };
-      const auto plane = [&](std::int64_t k) {
-        const float low = row(y.low, k);
-        return low + y.weight * (row(y.high, k) - low);
-      };
-      const float low = plane(z.low);
-      const float phi = scale * (low + z.weight * (plane(z.high) - low));
-      values_[static_cast<std::size_t>(number_in(shape, v))] = std::clamp(phi, -limit_, limit_);
-    });
+    const auto scale = static_cast<float>(grid_.scale());
+    for (std::size_t k = 0; k < z->voxels.size(); ++k) {
+      const Between& along = z->voxels[k];
+      for (std::int64_t j = 0; j < height; ++j) {
+        const float* const low = planes_.data() + width * (j + height * along.low);
+        const float* const high = planes_.data() + width * (j + height * along.high);
+        float* const row = values_.data() + shape.x * (j + shape.y * static_cast<std::int64_t>(k));
+        mix(low, high, along.weight, width, row);
+        for (std::int64_t i = 0; i < width; ++i) row[i] = std::clamp(scale * row[i], -limit_, limit_);
+      }
+    }
+  }
+
+  static float mixed(float low, float high, float weight) { return low + weight * (high - low); }
+  static float* mix(const float* low, const float* high, float weight, std::int64_t count, float* to) {
+    for (std::int64_t i = 0; i < count; ++i) to[i] = mixed(low[i], high[i], weight);
+    return to + count;
   }
 
   const Field& coarse_;
   const CoarseGrid& grid_;
   Field& fine_;
   float limit_;
-  std::array<Axis, 3> places_;
-  Index3 from_{0};  // the coarse voxels that take part
-  Index3 size_{1};
-  std::vector<float> block_;   // their phi, x fastest
-  std::vector<float> values_;  // of the page
+  std::array<std::vector<Reach>, 3> reaches_;  // by axis and page
+  std::array<const Reach*, 3> along_{};        // of the present page
+  // phi of the coarse voxels that take part, x fastest; then of the page's voxels along x; along x and y;
+  // along all.
+  std::vector<float> block_;
+  std::vector<float> rows_;
+  std::vector<float> planes_;
+  std::vector<float> values_;
 };
 
 }  // namespace
@@ -209,8 +255,7 @@ Parameters coarsened(const Parameters& parameters, const CoarseGrid& grid) {
 
 Field refined(const Field& phi, const CoarseGrid& grid, double band, Index3 page_shape) {
   Field fine = Field::empty(grid.fine(), band, page_shape);
-  PageRefiner refiner(phi, grid, fine);
-  for (std::int64_t page = 0; page < fine.layout.page_count(); ++page) refiner.refine(page);
+  Refiner(phi, grid, fine).run();
   return fine;
 }
 

@@ -1,6 +1,5 @@
 #include "solver/speed/coarse_speed.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
 #include <vector>
 
@@ -21,24 +20,23 @@ glm::vec3 scaled(const glm::vec3& value, double factor) {
   return value * static_cast<float>(factor);
 }
 
+// The mean of each block's voxels, one block after the other. Blocks at the end of an axis may be incomplete.
 template <class Value>
-void average(const VoxelBox& blocks, const VoxelBox& voxels, const CoarseGrid& grid,
-             const std::vector<Value>& values, Value* means) {
-  std::vector<double> counts(static_cast<std::size_t>(blocks.voxels()), 0.0);
-  std::fill_n(means, blocks.voxels(), Value(0));
-  std::size_t next = 0;
-  for (std::int64_t k = 0; k < voxels.size.z; ++k) {
-    for (std::int64_t j = 0; j < voxels.size.y; ++j) {
-      const std::int64_t row = blocks.size.x * (j / grid.factor().y + blocks.size.y * (k / grid.factor().z));
-      for (std::int64_t i = 0; i < voxels.size.x; ++i) {
-        const std::int64_t block = row + i / grid.factor().x;
-        means[block] += values[next++];
-        counts[static_cast<std::size_t>(block)] += 1.0;
+void average(const VoxelBox& voxels, Index3 factor, const Value* values, Value* means) {
+  for (std::int64_t z = 0; z < voxels.size.z; z += factor.z) {
+    for (std::int64_t y = 0; y < voxels.size.y; y += factor.y) {
+      for (std::int64_t x = 0; x < voxels.size.x; x += factor.x) {
+        const Index3 size = glm::min(factor, voxels.size - Index3(x, y, z));
+        Value sum(0);
+        for (std::int64_t k = z; k < z + size.z; ++k) {
+          for (std::int64_t j = y; j < y + size.y; ++j) {
+            const Value* const row = values + x + voxels.size.x * (j + voxels.size.y * k);
+            for (std::int64_t i = 0; i < size.x; ++i) sum += row[i];
+          }
+        }
+        *means++ = scaled(sum, 1.0 / static_cast<double>(size.x * size.y * size.z));
       }
     }
-  }
-  for (std::size_t block = 0; block < counts.size(); ++block) {
-    means[block] = scaled(means[block], 1.0 / counts[block]);
   }
 }
 
@@ -48,14 +46,14 @@ void CoarseSpeed::evaluate(const VoxelBox& box, double* speed) const {
   const VoxelBox voxels = voxels_of(box, grid_);
   std::vector<double> values(static_cast<std::size_t>(voxels.voxels()));
   fine_->evaluate(voxels, values.data());
-  average(box, voxels, grid_, values, speed);
+  average(voxels, grid_.factor(), values.data(), speed);
 }
 
 void CoarseSpeed::evaluate_advection(const VoxelBox& box, glm::vec3* velocity) const {
   const VoxelBox voxels = voxels_of(box, grid_);
   std::vector<glm::vec3> values(static_cast<std::size_t>(voxels.voxels()));
   fine_->evaluate_advection(voxels, values.data());
-  average(box, voxels, grid_, values, velocity);
+  average(voxels, grid_.factor(), values.data(), velocity);
 }
 
 std::shared_ptr<const SpeedFunction> CoarseSpeed::following(const Field& phi) const {
