@@ -5,8 +5,8 @@
 namespace tidemark::gpu {
 namespace {
 
-constexpr int kUnit = 14;   // no other draw uses it
-constexpr int kSlots = 10;  // as in render/sampler_slots.frag
+constexpr int kUnit = 14;   // no other draw has a 2D texture there
+constexpr int kSlots = 13;  // as in render/sampler_slots.frag
 
 }  // namespace
 

@@ -66,7 +66,9 @@ struct MemoryReport {
   std::int64_t resident_pages = 0;
   std::int64_t peak_resident_pages = 0;  // since phi was last replaced
   std::int64_t quiet_pages = 0;          // resident, but not computed at present
-  std::int64_t state_bytes = 0;          // phi, tables and lists as allocated
+  // phi, tables and lists as allocated, and on the GPU what drives and holds the surface, but for a source in
+  // one texture.
+  std::int64_t state_bytes = 0;
   std::int64_t peak_state_bytes = 0;
   std::int64_t source_bytes = 0;  // the source beside resident pages
   Index3 page_shape{0};

@@ -15,11 +15,11 @@ namespace {
 // Texture units.
 constexpr int kPhiUnit = 0;
 constexpr int kSourceUnit = 3;
-constexpr LabelPicture::Units kLabelUnits{5, 15, 10};
-constexpr int kFreeUnit = 6;        // and the three behind it
+constexpr LabelPicture::Units kLabelUnits{5, 9, 10};
+constexpr int kFreeUnit = 6;        // and the three behind it; the last has labels of pages for rays
 constexpr int kConstraintUnit = 8;  // of slices, which need one of those
 constexpr int kSpeedUnit = 13;
-constexpr int kImagesUnit = 15;  // of slices, which need no labels of pages
+constexpr int kImagesUnit = 15;
 
 solver::StepConstants<float> constants_of(const std::shared_ptr<const Volume>& source,
                                           const solver::Parameters& parameters) {
@@ -143,7 +143,8 @@ Status GlRenderer::set_labels(const PagedBytes& labels) {
   if (labels.size() != source_->geometry.size)
     return fail(ErrorKind::usage, "labels are on another grid than the volume");
   TIDEMARK_TRY(device_->make_current());
-  return labels_.set_voxels(*device_, labels);
+  labels_.set_voxels(labels);
+  return {};
 }
 
 Status GlRenderer::set_label_colours(std::span<const LabelColour> colours) {
@@ -207,7 +208,7 @@ Result<const gpu::Program*> GlRenderer::use_volume_program(const char* fragment,
                                                            PictureSize size, gpu::Defines variant) {
   const bool source = shows_source(view);
   if (shows_labels(view)) {
-    TIDEMARK_TRY(labels_.prepare_borders(*device_));
+    TIDEMARK_TRY(labels_.prepare(*device_, true));
   }
   const auto with = [&](bool wanted, const char* name) {
     if (wanted) variant.emplace_back(name, "");
@@ -304,6 +305,7 @@ Status GlRenderer::draw_from_slices(Canvas& canvas, const VolumeView& view, cons
 Status GlRenderer::draw_on(Canvas& canvas, const SliceView& view, const Progress& progress) {
   TIDEMARK_TRY(device_->make_current());
   const PictureSize size = canvas.size();
+  TIDEMARK_TRY(labels_.prepare(*device_, false));
   const bool by_plane = !source_picture_.has_volume();
   const glm::dmat4 voxel_from_view = slice_from_view(source_->geometry, view.orientation, view.position_mm,
                                                      view.zoom, view.pan_mm, size.aspect());

@@ -46,25 +46,31 @@ Result<LabelPicture> LabelPicture::create(gpu::Device& device, const PageLayout&
   return picture;
 }
 
-Status LabelPicture::set_voxels(gpu::Device& device, const PagedBytes& voxels) {
+void LabelPicture::set_voxels(const PagedBytes& voxels) {
   const VoxelRange changed = volume_.set_voxels(voxels);
-  if (!changed.empty()) upload_pages();
-  return upload(device, changed);
+  if (changed.empty()) return;
+  upload_pages();
+  add_to_upload(changed);
 }
 
-Status LabelPicture::prepare_borders(gpu::Device& device) {
-  return upload(device, volume_.prepare_borders());
+Status LabelPicture::prepare(gpu::Device& device, bool borders) {
+  if (borders) add_to_upload(volume_.prepare_borders());
+  if (to_upload_.empty()) return {};
+  TIDEMARK_TRY(upload(device, to_upload_));
+  to_upload_ = {};
+  return {};
 }
 
-// Blocks without a label take no memory. What could not be uploaded is so the next time.
-Status LabelPicture::upload(gpu::Device& device, const VoxelRange& changed) {
-  VoxelRange& box = to_upload_;
-  if (box.empty()) {
-    box = changed;
-  } else if (!changed.empty()) {
-    box = {glm::min(box.low, changed.low), glm::max(box.high, changed.high)};
+void LabelPicture::add_to_upload(const VoxelRange& box) {
+  if (to_upload_.empty()) {
+    to_upload_ = box;
+  } else if (!box.empty()) {
+    to_upload_ = {glm::min(to_upload_.low, box.low), glm::max(to_upload_.high, box.high)};
   }
-  if (box.empty()) return {};
+}
+
+// Blocks without a label take no memory.
+Status LabelPicture::upload(gpu::Device& device, const VoxelRange& box) {
   constexpr std::size_t kBlocksAtATime = 4096;
   constexpr std::uint8_t kAll = LabelVolume::kAll;
   const PageLayout& layout = blocks_.layout();
@@ -109,9 +115,7 @@ Status LabelPicture::upload(gpu::Device& device, const VoxelRange& changed) {
     }
   }
   blocks_.remove(empty);
-  TIDEMARK_TRY(write());
-  box = {};
-  return {};
+  return write();
 }
 
 void LabelPicture::set_colours(std::span<const LabelColour> colours) {

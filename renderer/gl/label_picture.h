@@ -20,16 +20,15 @@ class LabelPicture {
   // At first no voxel has a label, and all labels are seen in their first colours (core/label_colour.h).
   static Result<LabelPicture> create(gpu::Device& device, const PageLayout& layout);
 
-  // Fails (ErrorKind::capability) when memory is short.
-  Status set_voxels(gpu::Device& device, const PagedBytes& voxels);
+  void set_voxels(const PagedBytes& voxels);
   // Of the labels from 0 on.
   void set_colours(std::span<const LabelColour> colours);
 
   [[nodiscard]] const LabelPages& pages() const { return volume_.pages(); }
 
-  // Makes sure that render/labels.glsl finds what it looks at: slices need less. Fails
+  // Makes sure that shaders find what they look at: render/labels.glsl needs borders, slices do not. Fails
   // (ErrorKind::capability) when memory is short.
-  Status prepare_borders(gpu::Device& device);
+  Status prepare(gpu::Device& device, bool borders);
 
   // The variant of shaders, and the uniforms of render/labels.glsl and page_labels. Voxels take three units.
   struct Units {
@@ -39,7 +38,8 @@ class LabelPicture {
   void set_uniforms(const gpu::Program& program, const Units& units) const;
 
  private:
-  Status upload(gpu::Device& device, const VoxelRange& changed);
+  void add_to_upload(const VoxelRange& box);
+  Status upload(gpu::Device& device, const VoxelRange& box);
   void upload_pages();
 
   LabelVolume volume_;

@@ -1,25 +1,11 @@
 #include "renderer/gl/phi_picture.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "gpu/framebuffer.h"
 
 namespace tidemark::renderer {
-namespace {
-
-// Llvmpipe compiles anew for textures whose height is a power of two: G has no such one before its layer is
-// full.
-std::int64_t without_power_of_two(const solver::PackedLayout& layout, std::int64_t capacity) {
-  const auto fits_one_layer = [&](std::int64_t pages) { return layout.texture_size(pages).z == 1; };
-  while (std::has_single_bit(static_cast<std::uint64_t>(layout.texture_size(capacity).y)) &&
-         fits_one_layer(capacity + layout.pages_per_row())) {
-    capacity += layout.pages_per_row();
-  }
-  return std::min(capacity, layout.largest_capacity());
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::int64_t texels,
                                                     gpu::TexelFormat format, std::string_view label) {
@@ -36,7 +22,7 @@ Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::in
 Result<PhiPicture> PhiPicture::create(gpu::Device& device, const PageLayout& layout, double band) {
   PhiPicture picture;
   const solver::PackedLayout packed(layout, device.capabilities());
-  auto field = solver::PackedField::create(device, packed, without_power_of_two(packed, solver::kFirstPage),
+  auto field = solver::PackedField::create(device, packed, packed.without_power_of_two(solver::kFirstPage),
                                            static_cast<float>(band), 1);
   if (!field) return pass_on(field);
   picture.field_ = std::move(*field);
@@ -102,7 +88,7 @@ Status PhiPicture::update(gpu::Device& device, const solver::Field& phi,
     // By a quarter more than needed: a growing surface does not copy G with every picture.
     const std::int64_t needed = pages_.table().capacity();
     TIDEMARK_TRY(
-        field_.grow(device, without_power_of_two(layout(), layout().ample(needed, needed + needed / 4))));
+        field_.grow(device, layout().without_power_of_two(layout().ample(needed, needed + needed / 4))));
   }
   for (std::size_t first = 0; first < changes.size(); first += static_cast<std::size_t>(most_staged_)) {
     const std::size_t count = std::min(changes.size() - first, static_cast<std::size_t>(most_staged_));

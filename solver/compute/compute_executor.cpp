@@ -397,7 +397,7 @@ MemoryReport ComputeExecutor::memory() const {
   report.quiet_pages = control_.quiet_pages;
   report.state_bytes = with_textures(PageMemory::bytes_for(layout_, memory_.capacity()));
   report.peak_state_bytes = peak_bytes_;
-  report.source_bytes = 0;  // the source is one texture, whatever is resident
+  report.source_bytes = 0;  // blocks of it count in the state
   report.page_shape = layout_.layout().page_shape();
   return report;
 }

@@ -18,7 +18,12 @@ Status ConstraintTexture::show(gpu::Device& device, const Constraints& constrain
     (constraints.page(page) != nullptr ? changed : free).push_back(page);
   });
   const PackedTextures::Texels texels = [&](std::size_t i) { return constraints.page(changed[i]); };
-  TIDEMARK_TRY(blocks_.write(device, changed, std::span(&texels, 1)));
+  if (Status written = blocks_.write(device, changed, std::span(&texels, 1)); !written) {
+    // Nobody knows what has arrived.
+    shown_ = Constraints(constraints.layout().domain_size());
+    TIDEMARK_TRY(blocks_.release(device));
+    return written;
+  }
   blocks_.remove(free);
   shown_ = constraints;
   return {};

@@ -16,7 +16,7 @@ class ConstraintTexture {
   static Result<ConstraintTexture> create(gpu::Device& device, Index3 volume_size);
 
   // Writes the pages that are others than before. Fails (ErrorKind::capability) when memory is short; it
-  // shows what it did then.
+  // shows none then.
   Status show(gpu::Device& device, const Constraints& constraints);
   [[nodiscard]] std::int64_t bytes() const { return blocks_.bytes(); }
 

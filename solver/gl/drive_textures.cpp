@@ -46,6 +46,8 @@ Status DriveTextures::set_speed(gpu::Device& device, std::shared_ptr<const Speed
     speed_textures_ = std::move(made);
   }
   speed_ = std::move(speed);
+  // Nobody reads the source's blocks while there is D.
+  if (speed_textures_ && source_.wanted() != nullptr) TIDEMARK_TRY(source_.wanted()->release(device));
   return {};
 }
 
@@ -65,13 +67,18 @@ Status DriveTextures::set_constraints(gpu::Device& device, const Constraints* co
 void DriveTextures::want_around(const PageLayout& layout, std::span<const std::int64_t> pages,
                                 std::int64_t steps) {
   if (!is_filled()) return;
-  FilledBlocks& blocks = speed_textures_ ? speed_textures_->wanted() : *source_.wanted();
-  blocks.want_around(layout, pages, (Index3(steps) + layout.page_shape() - Index3(1)) / layout.page_shape());
+  wanted()->want_around(layout, pages,
+                        (Index3(steps) + layout.page_shape() - Index3(1)) / layout.page_shape());
 }
 
-Status DriveTextures::fill(gpu::Device& device) {
+Status DriveTextures::fill(gpu::Device& device, std::int64_t most_bytes) {
   if (!is_filled()) return {};
-  return speed_textures_ ? speed_textures_->fill(device) : source_.fill(device);
+  const std::int64_t most = most_bytes - (bytes() - wanted()->bytes());
+  return speed_textures_ ? speed_textures_->fill(device, most) : source_.fill(device, most);
+}
+
+Status DriveTextures::release(gpu::Device& device) {
+  return is_filled() ? wanted()->release(device) : Status();
 }
 
 gpu::Defines DriveTextures::defines() const {

@@ -36,9 +36,12 @@ class DriveTextures {
   [[nodiscard]] bool is_filled() const { return wanted() != nullptr; }
   static constexpr std::int64_t kMostStepsOfARun = 8;
   void want_around(const PageLayout& layout, std::span<const std::int64_t> pages, std::int64_t steps);
-  // bytes() with what is wanted, which fill() makes. It fails (ErrorKind::capability) when memory is short.
+  // The least that bytes() are while fill() makes what is wanted; it takes more where that stays below
+  // `most_bytes`. It fails (ErrorKind::capability) when memory is short.
   [[nodiscard]] std::int64_t bytes_wanted() const;
-  Status fill(gpu::Device& device);
+  Status fill(gpu::Device& device, std::int64_t most_bytes);
+  // Nothing that is filled is there, and nothing is wanted: the memory goes back.
+  Status release(gpu::Device& device);
 
   // The variant of the shaders; textures from `unit` on, and those of walls and anchors alone.
   [[nodiscard]] gpu::Defines defines() const;
@@ -47,6 +50,10 @@ class DriveTextures {
   void set_constraint_uniforms(const gpu::Program& program, int unit) const;
 
  private:
+  // Null: nothing is filled.
+  [[nodiscard]] FilledBlocks* wanted() {
+    return speed_textures_ ? &speed_textures_->wanted() : source_.wanted();
+  }
   [[nodiscard]] const FilledBlocks* wanted() const {
     return speed_textures_ ? &speed_textures_->wanted() : source_.wanted();
   }

@@ -34,8 +34,12 @@ Result<FilledBlocks> FilledBlocks::create(gpu::Device& device, Index3 volume_siz
   return filled;
 }
 
+Status FilledBlocks::release(gpu::Device& device) {
+  forget();
+  return blocks_.release(device);
+}
+
 void FilledBlocks::forget() {
-  blocks_.clear();
   there_.assign(static_cast<std::size_t>(blocks_.layout().page_count()), false);
   wanted_.clear();
   surrounded_.clear();
@@ -84,9 +88,10 @@ std::vector<FilledBlocks::Run> FilledBlocks::take_wanted() {
   return runs;
 }
 
-Status FilledBlocks::fill(gpu::Device& device, const Filler& filler) {
+Status FilledBlocks::fill(gpu::Device& device, const Filler& filler, std::int64_t most_bytes) {
   if (wanted_.empty()) return {};
   Status filled = without_exceptions([&]() -> Status {
+    TIDEMARK_TRY(blocks_.reserve(device, wanted_, most_bytes));
     const std::vector<Run> runs = take_wanted();
     for (std::size_t first = 0; first < runs.size(); first += kRunsAtATime) {
       const std::size_t count = std::min(kRunsAtATime, runs.size() - first);

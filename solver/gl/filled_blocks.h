@@ -27,19 +27,20 @@ class FilledBlocks {
   // the same.
   void want_around(const PageLayout& layout, std::span<const std::int64_t> pages, Index3 reach);
 
-  // Writes the texels of a box of whole blocks side by side along x: those of texture t, block after block
-  // as to_blocks() has
-  // them, to `texels[t]`, where they are 0. Called on several threads.
+  // Makes the texels of a box of whole blocks side by side along x: those of texture t, block after block as
+  // to_blocks() has them, go to `texels[t]`, where they are 0. Called on several threads.
   using Filler = std::function<void(const VoxelBox& box, std::span<std::byte* const> texels)>;
-  // Fills what was asked for and is not there. Fails (ErrorKind::capability) when memory is short; nothing is
-  // there then.
-  Status fill(gpu::Device& device, const Filler& filler);
-  // Nothing is there.
+  // Fills what was asked for and is not there. `most_bytes` as in VolumeBlocks::reserve(). Fails
+  // (ErrorKind::capability) when memory is short; nothing counts as there then.
+  Status fill(gpu::Device& device, const Filler& filler, std::int64_t most_bytes = VolumeBlocks::kAnyBytes);
+  // Nothing counts as there, and nothing is asked for. The memory is kept for what comes next.
   void forget();
+  // The same, and the memory goes back.
+  Status release(gpu::Device& device);
 
   [[nodiscard]] std::int64_t bytes() const { return blocks_.bytes(); }
-  // ... with what was asked for.
-  [[nodiscard]] std::int64_t bytes_wanted() const { return blocks_.bytes_with(std::ssize(wanted_)); }
+  // What fill() needs at least.
+  [[nodiscard]] std::int64_t bytes_wanted() const { return blocks_.bytes_to_write(wanted_); }
   [[nodiscard]] const VolumeBlocks& blocks() const { return blocks_; }
 
  private:

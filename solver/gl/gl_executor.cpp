@@ -57,8 +57,14 @@ Status GlExecutor::check_drive(const SpeedFunction& speed, const Constraints* co
 
 Status GlExecutor::fill_drive(std::span<const std::int64_t> pages, std::int64_t steps) {
   drive_textures_.want_around(layout_.layout(), pages, steps);
-  TIDEMARK_TRY(check_budget(drive_textures_.bytes_wanted()));
-  TIDEMARK_TRY(drive_textures_.fill(*device_));
+  if (!check_budget(drive_textures_.bytes_wanted())) {
+    // What the surface has left behind gives its memory back.
+    TIDEMARK_TRY(drive_textures_.release(*device_));
+    drive_textures_.want_around(layout_.layout(), pages, steps);
+    TIDEMARK_TRY(check_budget(drive_textures_.bytes_wanted()));
+  }
+  const std::int64_t beside = memory().state_bytes - drive_textures_.bytes();
+  TIDEMARK_TRY(drive_textures_.fill(*device_, options_.memory_budget_bytes - beside));
   peak_bytes_ = std::max(peak_bytes_, memory().state_bytes);
   return {};
 }
@@ -87,6 +93,8 @@ Status GlExecutor::set_constraints(std::shared_ptr<const Constraints> constraint
   const auto former = constraints_;
   Status set = use_constraints(std::move(constraints), *phi);
   if (set) return set;
+  // From nothing, so that what was made for the others takes no memory.
+  TIDEMARK_TRY(drive_textures_.set_constraints(*device_, nullptr));
   TIDEMARK_TRY(use_constraints(former, *phi));
   return set;
 }

@@ -1,6 +1,7 @@
 #include "solver/gl/packed_layout.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace tidemark::solver {
 
@@ -45,6 +46,14 @@ Index3 PackedLayout::texture_size(std::int64_t capacity) const {
   const std::int64_t rows = rounded_up(capacity) / pages_per_row_;
   const std::int64_t layers = (rows + rows_per_layer_ - 1) / rows_per_layer_;
   return {pages_per_row_ * tile_.x, std::min(rows, rows_per_layer_) * tile_.y, layers};
+}
+
+std::int64_t PackedLayout::without_power_of_two(std::int64_t capacity) const {
+  while (std::has_single_bit(static_cast<std::uint64_t>(texture_size(capacity).y)) &&
+         texture_size(capacity + pages_per_row_).z == 1) {
+    capacity += pages_per_row_;
+  }
+  return std::min(capacity, largest_capacity());
 }
 
 void PackedLayout::pack(const void* voxels, void* tile, std::int64_t row_length,

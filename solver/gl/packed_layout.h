@@ -38,6 +38,9 @@ class PackedLayout {
   // Room for `needed` pages and for as many of those that may follow as have room in the same layers.
   [[nodiscard]] std::int64_t ample(std::int64_t needed, std::int64_t wanted) const;
   [[nodiscard]] Index3 texture_size(std::int64_t capacity) const;
+  // At least `capacity`, so that no texture's height is a power of two before its layer is full: llvmpipe
+  // compiles anew for those.
+  [[nodiscard]] std::int64_t without_power_of_two(std::int64_t capacity) const;
 
   // Copies a page's voxels (i fastest) to its tile, whose rows are `row_length` values long, and back.
   void pack(const float* voxels, float* tile, std::int64_t row_length) const {

@@ -36,7 +36,7 @@ Result<SourceTexture> SourceTexture::create(gpu::Device& device, std::shared_ptr
       std::visit([](const auto& voxels) { return std::as_bytes(std::span(voxels)); }, source->voxels);
   if (auto texture = gpu::Texture3D::create(device, format, size, bytes, "source")) {
     result.texture_ = std::move(*texture);
-  } else if (device.lost()) {
+  } else if (texture.error().kind != ErrorKind::capability || device.lost()) {
     return pass_on(texture);
   } else {
     auto blocks = FilledBlocks::create(device, size, {format}, "source", threads);
@@ -47,8 +47,8 @@ Result<SourceTexture> SourceTexture::create(gpu::Device& device, std::shared_ptr
   return result;
 }
 
-Status SourceTexture::fill(gpu::Device& device) {
-  return blocks_->fill(device, [&](const VoxelBox& box, std::span<std::byte* const> texels) {
+Status SourceTexture::fill(gpu::Device& device, std::int64_t most_bytes) {
+  const auto copy = [&](const VoxelBox& box, std::span<std::byte* const> texels) {
     std::visit(
         [&](const auto& voxels) {
           using Scalar = typename std::decay_t<decltype(voxels)>::value_type;
@@ -62,7 +62,8 @@ Status SourceTexture::fill(gpu::Device& device) {
           to_blocks(box.size, values.data(), reinterpret_cast<Scalar*>(texels[0]));
         },
         source_->voxels);
-  });
+  };
+  return blocks_->fill(device, copy, most_bytes);
 }
 
 gpu::Defines SourceTexture::defines() const {

@@ -23,7 +23,7 @@ class SourceTexture {
   // Null: it is one texture.
   [[nodiscard]] FilledBlocks* wanted() { return blocks_ ? &*blocks_ : nullptr; }
   [[nodiscard]] const FilledBlocks* wanted() const { return blocks_ ? &*blocks_ : nullptr; }
-  Status fill(gpu::Device& device);
+  Status fill(gpu::Device& device, std::int64_t most_bytes);  // as SpeedTextures does
 
   static constexpr int kUnits = 2;  // from `unit` on
   [[nodiscard]] gpu::Defines defines() const;

@@ -28,8 +28,8 @@ Status SpeedTextures::set_function(gpu::Device& device, std::shared_ptr<const Sp
   return {};
 }
 
-Status SpeedTextures::fill(gpu::Device& device) {
-  return volume_.fill(device, [&](const VoxelBox& box, std::span<std::byte* const> texels) {
+Status SpeedTextures::fill(gpu::Device& device, std::int64_t most_bytes) {
+  const auto evaluate = [&](const VoxelBox& box, std::span<std::byte* const> texels) {
     std::vector<std::int16_t> speed(static_cast<std::size_t>(box.voxels()));
     evaluate_quantised(*function_, box, speed.data());
     to_blocks(box.size, speed.data(), reinterpret_cast<std::int16_t*>(texels[0]));
@@ -40,7 +40,8 @@ Status SpeedTextures::fill(gpu::Device& device) {
     velocity.reserve(evaluated.size());
     for (const glm::vec3 v : evaluated) velocity.emplace_back(v, 0.0F);
     to_blocks(box.size, velocity.data(), reinterpret_cast<glm::vec4*>(texels[1]));
-  });
+  };
+  return volume_.fill(device, evaluate, most_bytes);
 }
 
 gpu::Defines SpeedTextures::defines() const {

@@ -27,8 +27,9 @@ class SpeedTextures {
   // After set_function(): what is wanted, and how much memory that takes.
   [[nodiscard]] FilledBlocks& wanted() { return volume_; }
   [[nodiscard]] const FilledBlocks& wanted() const { return volume_; }
-  // Evaluates what was asked for and is not there. Fails (ErrorKind::capability) when memory is short.
-  Status fill(gpu::Device& device);
+  // Evaluates what was asked for and is not there. `most_bytes` as in VolumeBlocks::reserve(). Fails
+  // (ErrorKind::capability) when memory is short.
+  Status fill(gpu::Device& device, std::int64_t most_bytes = VolumeBlocks::kAnyBytes);
 
   // SPEED_VOLUME and ADVECTION; kUnits units from `unit` on.
   static constexpr int kUnits = 3;

@@ -1,6 +1,5 @@
 #include "solver/gl/volume_blocks.h"
 
-#include <algorithm>
 #include <array>
 #include <glm/common.hpp>
 #include <iterator>
@@ -11,64 +10,76 @@ namespace tidemark::solver {
 Result<VolumeBlocks> VolumeBlocks::create(gpu::Device& device, Index3 volume_size,
                                           std::vector<gpu::TexelFormat> formats, std::string label) {
   const PageLayout layout(volume_size, kDefaultPageShape);
+  const PackedLayout packed(layout, device.capabilities());
   VolumeBlocks blocks;
   blocks.table_.assign(static_cast<std::size_t>(layout.page_count()), kEmptyTile);
   auto table = gpu::Texture3D::create(device, gpu::TexelFormat::r32i, layout.pages(),
                                       std::as_bytes(std::span(blocks.table_)), label);
   if (!table) return pass_on(table);
   blocks.table_texture_ = std::move(*table);
-  auto textures = PackedTextures::create(device, PackedLayout(layout, device.capabilities()), blocks.used_,
-                                         std::move(formats), std::move(label));
+  auto textures =
+      PackedTextures::create(device, packed, packed.without_power_of_two(blocks.used_), formats, label);
   if (!textures) return pass_on(textures);
   blocks.textures_ = std::move(*textures);
-  blocks.write_empty_tile();
+  constexpr std::size_t kLargestTexel = 16;
+  const std::vector<std::byte> zeros(kLargestTexel * static_cast<std::size_t>(layout.voxels_per_page()));
+  for (std::size_t texture = 0; texture < formats.size(); ++texture)
+    blocks.textures_.upload(texture, std::array{kEmptyTile}, [&](std::size_t) { return zeros.data(); });
+  blocks.formats_ = std::move(formats);
+  blocks.label_ = std::move(label);
   TIDEMARK_TRY(device.check("making a volume of blocks"));
   return blocks;
 }
 
-void VolumeBlocks::write_empty_tile() {
-  constexpr std::size_t kLargestTexel = 16;
-  const std::vector<std::byte> zeros(kLargestTexel * static_cast<std::size_t>(layout().voxels_per_page()));
-  for (std::size_t texture = 0; texture < textures_.count(); ++texture)
-    textures_.upload(texture, std::array{kEmptyTile}, [&](std::size_t) { return zeros.data(); });
+std::int64_t VolumeBlocks::bytes_for(std::int64_t capacity) const {
+  return textures_.bytes_for(capacity) + static_cast<std::int64_t>(table_.size() * sizeof(PhysicalPage));
 }
 
-// Ample, so that blocks which come one after another seldom wait for room.
-std::int64_t VolumeBlocks::capacity_for(std::int64_t tiles) const {
-  if (tiles <= textures_.capacity()) return textures_.capacity();
+// How many tiles are in use when the blocks are there, too; the empty one counts.
+std::int64_t VolumeBlocks::tiles_with(std::span<const std::int64_t> blocks) const {
+  const std::int64_t more =
+      std::ranges::count_if(blocks, [&](std::int64_t block) { return !is_there(block); });
+  return used_ + std::max<std::int64_t>(more - std::ssize(free_), 0);
+}
+
+std::int64_t VolumeBlocks::bytes_to_write(std::span<const std::int64_t> blocks) const {
+  const std::int64_t tiles = tiles_with(blocks);
+  return tiles <= textures_.capacity() ? bytes() : bytes_for(tiles) + textures_.bytes();
+}
+
+Status VolumeBlocks::reserve(gpu::Device& device, std::span<const std::int64_t> blocks,
+                             std::int64_t most_bytes) {
+  const std::int64_t tiles = tiles_with(blocks);
+  if (tiles <= textures_.capacity()) return {};
+  const PackedLayout& packed = textures_.layout();
   const std::int64_t all = layout().page_count() + 1;
-  return textures_.layout().ample(tiles, std::min(tiles + tiles / 4, std::max(tiles, all)));
-}
-
-std::int64_t VolumeBlocks::bytes_with(std::int64_t more) const {
-  const std::int64_t tiles = used_ + std::max<std::int64_t>(more - std::ssize(free_), 0);
-  return textures_.bytes_for(capacity_for(tiles)) +
-         static_cast<std::int64_t>(table_.size() * sizeof(PhysicalPage));
+  const std::int64_t ample =
+      packed.without_power_of_two(packed.ample(tiles, std::max(tiles, std::min(tiles + tiles / 4, all))));
+  return textures_.grow(device, bytes_for(ample) + textures_.bytes() <= most_bytes ? ample : tiles);
 }
 
 Status VolumeBlocks::write(gpu::Device& device, std::span<const std::int64_t> blocks,
                            std::span<const PackedTextures::Texels> texels) {
-  const auto is_new = [&](std::int64_t block) {
-    return table_[static_cast<std::size_t>(block)] == kEmptyTile;
-  };
-  const std::int64_t more = std::ranges::count_if(blocks, is_new) - std::ssize(free_);
-  if (const std::int64_t tiles = used_ + more; tiles > textures_.capacity())
-    TIDEMARK_TRY(textures_.grow(device, capacity_for(tiles)));
+  TIDEMARK_TRY(reserve(device, blocks));
   std::vector<PhysicalPage> tiles;
+  std::vector<std::int64_t> placed;
   tiles.reserve(blocks.size());
   for (const std::int64_t block : blocks) {
     PhysicalPage& tile = table_[static_cast<std::size_t>(block)];
-    if (tile == kEmptyTile && free_.empty()) {
-      tile = used_++;
-    } else if (tile == kEmptyTile) {
-      tile = free_.back();
-      free_.pop_back();
+    if (tile == kEmptyTile) {
+      placed.push_back(block);
+      if (free_.empty()) {
+        tile = used_++;
+      } else {
+        tile = free_.back();
+        free_.pop_back();
+      }
     }
     tiles.push_back(tile);
   }
   for (std::size_t texture = 0; texture < textures_.count(); ++texture)
     textures_.upload(texture, tiles, texels[texture]);
-  upload_table(blocks);
+  upload_table(placed);
   return device.check("writing a volume of blocks");
 }
 
@@ -93,20 +104,18 @@ void VolumeBlocks::upload_table(std::span<const std::int64_t> blocks) {
 
 void VolumeBlocks::remove(std::span<const std::int64_t> blocks) {
   std::vector<std::int64_t> were_there;
-  for (const std::int64_t block : blocks) {
-    PhysicalPage& tile = table_[static_cast<std::size_t>(block)];
-    if (tile == kEmptyTile) continue;
-    free_.push_back(std::exchange(tile, kEmptyTile));
-    were_there.push_back(block);
-  }
+  std::ranges::copy_if(blocks, std::back_inserter(were_there),
+                       [&](std::int64_t block) { return is_there(block); });
+  for (const std::int64_t block : were_there)
+    free_.push_back(std::exchange(table_[static_cast<std::size_t>(block)], kEmptyTile));
   upload_table(were_there);
 }
 
-void VolumeBlocks::clear() {
-  free_.clear();
-  if (std::exchange(used_, kEmptyTile + 1) == kEmptyTile + 1) return;
-  std::ranges::fill(table_, kEmptyTile);
-  table_texture_.upload(Index3(0), layout().pages(), std::as_bytes(std::span(table_)));
+Status VolumeBlocks::release(gpu::Device& device) {
+  auto anew = create(device, layout().domain_size(), formats_, label_);
+  if (!anew) return pass_on(anew);
+  *this = std::move(*anew);
+  return {};
 }
 
 gpu::Defines VolumeBlocks::defines() const {

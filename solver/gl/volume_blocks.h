@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ namespace tidemark::solver {
 // Blocks are of kDefaultPageShape. Texels of blocks that are not there are 0.
 class VolumeBlocks {
  public:
+  static constexpr std::int64_t kAnyBytes = std::numeric_limits<std::int64_t>::max();
+
   VolumeBlocks() = default;
   // A texture for each format. No block is there. Fails (ErrorKind::capability) when the driver's limits or
   // its memory are too small.
@@ -23,17 +26,22 @@ class VolumeBlocks {
                                      std::vector<gpu::TexelFormat> formats, std::string label);
 
   [[nodiscard]] const PageLayout& layout() const { return textures_.layout().layout(); }
-  [[nodiscard]] std::int64_t bytes() const { return bytes_with(0); }
-  // ... with so many more blocks.
-  [[nodiscard]] std::int64_t bytes_with(std::int64_t more) const;
+  [[nodiscard]] std::int64_t bytes() const { return bytes_for(textures_.capacity()); }
+  // The least that is needed to write such blocks, with the copy while the textures grow.
+  [[nodiscard]] std::int64_t bytes_to_write(std::span<const std::int64_t> blocks) const;
 
-  // Writes all texels of some blocks, x fastest; `texels[t](i)` are those of the i-th block in texture t. On
-  // failure (ErrorKind::capability) all is as before.
+  // Makes room for blocks that are to be written: with some to spare where that stays below `most_bytes`, the
+  // copy included. On failure (ErrorKind::capability) all is as before.
+  Status reserve(gpu::Device& device, std::span<const std::int64_t> blocks,
+                 std::int64_t most_bytes = kAnyBytes);
+  // Writes all texels of some blocks, x fastest; `texels[t](i)` are those of the i-th block in texture t.
+  // Fails (ErrorKind::capability) when memory is short.
   Status write(gpu::Device& device, std::span<const std::int64_t> blocks,
                std::span<const PackedTextures::Texels> texels);
-  // They are there no more.
+  // They are there no more; others take their places.
   void remove(std::span<const std::int64_t> blocks);
-  void clear();
+  // No block is there, and the memory goes back.
+  Status release(gpu::Device& device);
 
   // The defines of volume_blocks.glsl; the textures in units from `unit` on, and the table behind them.
   [[nodiscard]] gpu::Defines defines() const;
@@ -41,11 +49,16 @@ class VolumeBlocks {
 
  private:
   static constexpr PhysicalPage kEmptyTile = 0;  // of all blocks that are not there
-  [[nodiscard]] std::int64_t capacity_for(std::int64_t tiles) const;
+  [[nodiscard]] std::int64_t bytes_for(std::int64_t capacity) const;
+  [[nodiscard]] bool is_there(std::int64_t block) const {
+    return table_[static_cast<std::size_t>(block)] != kEmptyTile;
+  }
+  [[nodiscard]] std::int64_t tiles_with(std::span<const std::int64_t> blocks) const;
   void upload_table(std::span<const std::int64_t> blocks);
-  void write_empty_tile();
 
   PackedTextures textures_;
+  std::vector<gpu::TexelFormat> formats_;
+  std::string label_;
   std::vector<PhysicalPage> table_;  // a block's tile
   gpu::Texture3D table_texture_;
   std::vector<PhysicalPage> free_;  // tiles that were used

@@ -119,7 +119,7 @@ MemoryReport StreamExecutor::memory() const {
   report.quiet_pages = quiet_pages_;
   report.state_bytes = with_textures(state_bytes(memory_.capacity()));
   report.peak_state_bytes = peak_bytes_;
-  report.source_bytes = 0;  // the source is one texture, whatever is resident
+  report.source_bytes = 0;  // blocks of it count in the state
   report.page_shape = kPageShape;
   return report;
 }

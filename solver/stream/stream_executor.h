@@ -115,7 +115,7 @@ class StreamExecutor final : public GlExecutor {
   bool active_list_is_stale_ = true;
   bool needs_activation_ = false;  // the budget stopped an allocation
   std::int64_t quiet_pages_ = 0;
-  std::int64_t filled_changes_ = -1;  // of the table, when D was evaluated around its pages
+  std::int64_t filled_changes_ = -1;  // of the table, when its pages' surroundings were filled
 
   gpu::Buffer viewed_table_;          // the page table as packed_view() gave it last
   std::int64_t viewed_changes_ = -1;  // of the table, when it did

@@ -138,6 +138,78 @@ class DriveBlocksTest : public QObject {
     }
   }
 
+  void a_source_is_there_again_after_another_function() {
+    for (const ExecutorKind kind : kKinds) {
+      const Scene scene;
+      const auto whole = scene.start(kind, scene.source);
+      const auto in_blocks = scene.start(kind, scene.source, small_device(kind));
+      const auto other =
+          std::make_shared<FormulaSpeed>([](glm::dvec3 voxel) { return 0.6 - voxel.x / 60.0; });
+      for (const auto& speed :
+           {std::shared_ptr<const SpeedFunction>(), std::shared_ptr<const SpeedFunction>(other),
+            std::shared_ptr<const SpeedFunction>()}) {
+        for (const auto& level_set : {whole.get(), in_blocks.get()}) {
+          QCOMPARE(failure(level_set->set_speed(speed)), QString());
+          run(*level_set, 20);
+        }
+        QVERIFY(phi_of(*whole) == phi_of(*in_blocks));
+      }
+    }
+  }
+
+  void a_surface_that_grew_beyond_the_budget_goes_on_from_its_start() {
+    for (const ExecutorKind kind : kKinds) {
+      const Geometry geometry = grid(Index3(128));
+      const auto source = volume_of(geometry, [](glm::dvec3) { return 0.0; });
+      const auto speed = std::make_shared<FormulaSpeed>([](glm::dvec3) { return 1.0; },
+                                                        [](glm::dvec3) { return glm::vec3(0.1F); }, 0.2);
+      const auto begin = [&](std::int64_t budget) {
+        ExecutorOptions options;
+        if (budget > 0) options.memory_budget_bytes = budget;
+        auto level_set = executor(kind, source, Parameters{}, options);
+        if (!level_set->paint({centre_of(geometry), 10.0}, Brush::add) || !level_set->set_speed(speed))
+          qFatal("the start cannot be made");
+        return level_set;
+      };
+      const auto free = begin(0);
+      run(*free, 10);
+      const auto tight = begin(3 * free->memory().peak_state_bytes);
+      const Field start = tight->snapshot().value();
+      Advance steps;
+      steps.steps = 120;
+      const auto grown = tight->advance(steps);
+      QVERIFY(!grown && grown.error().kind == ErrorKind::capability);
+      QCOMPARE(failure(tight->restore(start)), QString());
+      run(*tight, 10);
+      QVERIFY(phi_of(*tight) == phi_of(*free));
+    }
+  }
+
+  void walls_that_take_too_much_leave_the_former_ones() {
+    for (const ExecutorKind kind : kKinds) {
+      const Scene scene;
+      const auto walls = [&](double radius_mm) {
+        auto made = std::make_shared<Constraints>(scene.geometry.size);
+        made->set(scene.geometry, {{50.0, 26.0, 30.0}, radius_mm}, Constraint::anchor);
+        return made;
+      };
+      const auto free = scene.start(kind, scene.source);
+      QCOMPARE(failure(free->set_constraints(walls(3.0))), QString());
+      run(*free, 5);
+      ExecutorOptions options;
+      options.memory_budget_bytes = free->memory().peak_state_bytes * 2;
+      const auto tight = executor(kind, scene.source, scene.parameters, options);
+      QVERIFY(tight->paint({{15.0, 26.0, 30.0}, 6.0}, Brush::add));
+      QCOMPARE(failure(tight->set_constraints(walls(3.0))), QString());
+      run(*tight, 5);
+      const auto refused = tight->set_constraints(walls(60.0));
+      QVERIFY(!refused && refused.error().kind == ErrorKind::capability);
+      run(*tight, 5);
+      run(*free, 5);
+      QVERIFY(phi_of(*tight) == phi_of(*free));
+    }
+  }
+
   // A function and its velocity that are known everywhere take what lies around the surface alone.
   void memory_follows_the_surface() {
     for (const ExecutorKind kind : kKinds) {
