@@ -1,6 +1,7 @@
 #include "ui/look/theme.h"
 
 #include <QApplication>
+#include <QIcon>
 #include <QToolTip>
 #include <iterator>
 
@@ -158,6 +159,15 @@ QPalette tip_palette(const QPalette& palette) {
   return tip;
 }
 
+// File dialogs ask for some twenty icons of the desktop's theme. Where there is none but hicolor, which has
+// only those of programs, Qt looks for each of them in hundreds of folders: 50,000 files that do not exist
+// for each dialog.
+void leave_out_empty_icon_theme() {
+  const QString theme = QIcon::themeName();
+  if (theme.isEmpty() || theme == QLatin1String("hicolor"))
+    QIcon::setThemeSearchPaths({QStringLiteral(":/icons")});
+}
+
 }  // namespace
 
 QPalette light_palette() {
@@ -177,6 +187,7 @@ void apply_theme(QApplication& application, Theme theme) {
   const bool dark = theme == Theme::dark || (theme == Theme::system && system_is_dark);
   const QPalette palette = dark ? dark_palette() : light_palette();
   if (application.styleSheet().isEmpty()) {
+    leave_out_empty_icon_theme();
     QApplication::setStyle(new Style);  // owned by the application
     application.setStyleSheet(QString::fromLatin1(kStyleSheet));
   }

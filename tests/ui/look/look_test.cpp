@@ -118,6 +118,13 @@ class LookTest : public QObject {
     QCOMPARE(extra, QStringList());  // a drawing that nobody asks for
   }
 
+  // Dialogs for files look for icons of the desktop's theme: in a theme that has some, or nowhere on the disk.
+  void an_empty_icon_theme_is_not_searched() {
+    const QString theme = QIcon::themeName();
+    const bool is_empty = theme.isEmpty() || theme == "hicolor";
+    QCOMPARE(QIcon::themeSearchPaths() == QStringList{":/icons"}, is_empty);
+  }
+
   void an_unknown_name_gives_a_null_icon_and_a_warning() {
     QTest::ignoreMessage(QtWarningMsg, "There is no icon 'no-such-icon'");
     QVERIFY(ui::icon(u"no-such-icon").isNull());
