@@ -118,7 +118,8 @@ class LookTest : public QObject {
     QCOMPARE(extra, QStringList());  // a drawing that nobody asks for
   }
 
-  // Dialogs for files look for icons of the desktop's theme: in a theme that has some, or nowhere on the disk.
+  // Dialogs for files look for icons of the desktop's theme: in a theme that has some, or nowhere on the
+  // disk.
   void an_empty_icon_theme_is_not_searched() {
     const QString theme = QIcon::themeName();
     const bool is_empty = theme.isEmpty() || theme == "hicolor";
