@@ -163,20 +163,22 @@ class DriveBlocksTest : public QObject {
       const auto source = volume_of(geometry, [](glm::dvec3) { return 0.0; });
       const auto speed = std::make_shared<FormulaSpeed>([](glm::dvec3) { return 1.0; },
                                                         [](glm::dvec3) { return glm::vec3(0.1F); }, 0.2);
+      Parameters parameters;
+      parameters.alpha = 1.0;
       const auto begin = [&](std::int64_t budget) {
         ExecutorOptions options;
         if (budget > 0) options.memory_budget_bytes = budget;
-        auto level_set = executor(kind, source, Parameters{}, options);
+        auto level_set = executor(kind, source, parameters, options);
         if (!level_set->paint({centre_of(geometry), 10.0}, Brush::add) || !level_set->set_speed(speed))
           qFatal("the start cannot be made");
         return level_set;
       };
       const auto free = begin(0);
       run(*free, 10);
-      const auto tight = begin(3 * free->memory().peak_state_bytes);
+      const auto tight = begin(2 * free->memory().peak_state_bytes);
       const Field start = tight->snapshot().value();
       Advance steps;
-      steps.steps = 120;
+      steps.steps = 300;
       const auto grown = tight->advance(steps);
       QVERIFY(!grown && grown.error().kind == ErrorKind::capability);
       QCOMPARE(failure(tight->restore(start)), QString());
