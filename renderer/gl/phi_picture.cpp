@@ -5,8 +5,6 @@
 #include "gpu/framebuffer.h"
 
 namespace tidemark::renderer {
-namespace {}  // namespace
-
 Result<PhiPicture::Array> PhiPicture::Array::create(gpu::Device& device, std::int64_t texels,
                                                     gpu::TexelFormat format, std::string_view label) {
   Array array;

@@ -20,8 +20,7 @@ class ConstraintTexture {
   Status show(gpu::Device& device, const Constraints& constraints);
   [[nodiscard]] std::int64_t bytes() const { return blocks_.bytes(); }
 
-  // CONSTRAINED; kUnits units from `unit` on.
-  static constexpr int kUnits = 2;
+  // CONSTRAINED; two units from `unit` on.
   [[nodiscard]] gpu::Defines defines() const;
   void set_uniforms(const gpu::Program& program, int unit) const;
 

@@ -25,7 +25,6 @@ Result<FilledBlocks> FilledBlocks::create(gpu::Device& device, Index3 volume_siz
                                           std::vector<gpu::TexelFormat> formats, std::string label,
                                           int threads) {
   FilledBlocks filled;
-  for (const gpu::TexelFormat format : formats) filled.texel_bytes_.push_back(gpu::bytes_per_texel(format));
   auto blocks = VolumeBlocks::create(device, volume_size, std::move(formats), std::move(label));
   if (!blocks) return pass_on(blocks);
   filled.blocks_ = std::move(*blocks);
@@ -111,12 +110,12 @@ Status FilledBlocks::write(gpu::Device& device, std::span<const Run> runs, const
     for (std::int64_t block = 0; block < run.count; ++block) numbers.push_back(run.first_block + block);
   }
   const std::size_t voxels = static_cast<std::size_t>(blocks_.layout().voxels_per_page());
-  const std::size_t textures = texel_bytes_.size();
+  const std::size_t textures = blocks_.formats().size();
   std::vector<std::vector<std::byte>> texels(textures);
   std::vector<std::size_t> block_bytes(textures);
   std::vector<PackedTextures::Texels> of_block(textures);
   for (std::size_t t = 0; t < textures; ++t) {
-    block_bytes[t] = voxels * static_cast<std::size_t>(texel_bytes_[t]);
+    block_bytes[t] = voxels * static_cast<std::size_t>(gpu::bytes_per_texel(blocks_.formats()[t]));
     texels[t].resize(numbers.size() * block_bytes[t]);
     of_block[t] = [from = texels[t].data(), bytes = block_bytes[t]](std::size_t i) {
       return from + i * bytes;

@@ -49,7 +49,6 @@ class FilledBlocks {
   Status write(gpu::Device& device, std::span<const Run> runs, const Filler& filler);
 
   VolumeBlocks blocks_;
-  std::vector<std::int64_t> texel_bytes_;  // by texture
   std::shared_ptr<ThreadPool> threads_;
   std::vector<bool> there_;  // by block; those that are wanted are on their way
   std::vector<std::int64_t> wanted_;

@@ -28,6 +28,8 @@ class PackedTextures {
   [[nodiscard]] std::int64_t bytes() const { return bytes_for(capacity_); }
   [[nodiscard]] std::int64_t bytes_for(std::int64_t capacity) const;
   [[nodiscard]] std::size_t count() const { return textures_.size(); }
+  [[nodiscard]] const std::vector<gpu::TexelFormat>& formats() const { return formats_; }
+  [[nodiscard]] const std::string& label() const { return label_; }
   [[nodiscard]] const gpu::TextureLayers& operator[](std::size_t texture) const { return textures_[texture]; }
 
   // Writes pages in one texture. `texels(i)` are those of the i-th page, x fastest, in the texture's format.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "gpu/program.h"
 #include "solver/gl/filled_blocks.h"

@@ -17,16 +17,14 @@ Result<VolumeBlocks> VolumeBlocks::create(gpu::Device& device, Index3 volume_siz
                                       std::as_bytes(std::span(blocks.table_)), label);
   if (!table) return pass_on(table);
   blocks.table_texture_ = std::move(*table);
-  auto textures =
-      PackedTextures::create(device, packed, packed.without_power_of_two(blocks.used_), formats, label);
+  auto textures = PackedTextures::create(device, packed, packed.without_power_of_two(blocks.used_),
+                                         std::move(formats), std::move(label));
   if (!textures) return pass_on(textures);
   blocks.textures_ = std::move(*textures);
   constexpr std::size_t kLargestTexel = 16;
   const std::vector<std::byte> zeros(kLargestTexel * static_cast<std::size_t>(layout.voxels_per_page()));
-  for (std::size_t texture = 0; texture < formats.size(); ++texture)
+  for (std::size_t texture = 0; texture < blocks.textures_.count(); ++texture)
     blocks.textures_.upload(texture, std::array{kEmptyTile}, [&](std::size_t) { return zeros.data(); });
-  blocks.formats_ = std::move(formats);
-  blocks.label_ = std::move(label);
   TIDEMARK_TRY(device.check("making a volume of blocks"));
   return blocks;
 }
@@ -112,7 +110,7 @@ void VolumeBlocks::remove(std::span<const std::int64_t> blocks) {
 }
 
 Status VolumeBlocks::release(gpu::Device& device) {
-  auto anew = create(device, layout().domain_size(), formats_, label_);
+  auto anew = create(device, layout().domain_size(), formats(), textures_.label());
   if (!anew) return pass_on(anew);
   *this = std::move(*anew);
   return {};

@@ -26,6 +26,7 @@ class VolumeBlocks {
                                      std::vector<gpu::TexelFormat> formats, std::string label);
 
   [[nodiscard]] const PageLayout& layout() const { return textures_.layout().layout(); }
+  [[nodiscard]] const std::vector<gpu::TexelFormat>& formats() const { return textures_.formats(); }
   [[nodiscard]] std::int64_t bytes() const { return bytes_for(textures_.capacity()); }
   // The least that is needed to write such blocks, with the copy while the textures grow.
   [[nodiscard]] std::int64_t bytes_to_write(std::span<const std::int64_t> blocks) const;
@@ -57,8 +58,6 @@ class VolumeBlocks {
   void upload_table(std::span<const std::int64_t> blocks);
 
   PackedTextures textures_;
-  std::vector<gpu::TexelFormat> formats_;
-  std::string label_;
   std::vector<PhysicalPage> table_;  // a block's tile
   gpu::Texture3D table_texture_;
   std::vector<PhysicalPage> free_;  // tiles that were used
