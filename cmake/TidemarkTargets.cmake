@@ -65,15 +65,10 @@ function(tidemark_compile_quickly target)
   tidemark_take_headers(${target} tidemark_quick_headers)
 endfunction()
 
-# What ccache wants of files that are compiled so (its manual, "Precompiled headers"). Comments count: a header that is
-# precompiled knows its files by their content, and one from before a change of a comment would read them twice.
+# A precompiled header is the same for ccache (cmake/compile_cached) each time it is made of the same.
 function(tidemark_cache_precompiled target)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
                          "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
-  if(CCACHE_PROGRAM)
-    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER
-      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;CCACHE_COMMENTS=1;${CCACHE_PROGRAM}")
-  endif()
 endfunction()
 
 # A test program: one for a folder, of as many test classes as its folder has (tests/support/test_program.h).
