@@ -1,4 +1,4 @@
-// VTK's ray caster on the processor, in a process of its own that draws when it is told to.
+// One of VTK's ray casters, in a process of its own that draws on request.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,11 @@ namespace tidemark::bench {
 
 class VtkPeer {
  public:
+  enum class Mapper { processor, opengl };
   // `folder` is for the volume, whose values are rounded; VTK draws it along the patient's axes. Fails
   // (ErrorKind::usage) for values that 16 bits do not hold, (ErrorKind::capability) where Python has no VTK.
-  static Result<std::unique_ptr<VtkPeer>> start(const Volume& volume, const std::filesystem::path& folder,
+  static Result<std::unique_ptr<VtkPeer>> start(Mapper mapper, const Volume& volume,
+                                                const std::filesystem::path& folder,
                                                 const std::string& python);
   ~VtkPeer();
   VtkPeer(const VtkPeer&) = delete;

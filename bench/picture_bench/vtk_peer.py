@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Draws a volume with VTK's ray caster on the processor. Commands come as lines of JSON, answers go as lines of JSON.
+"""Draws a volume with one of VTK's ray casters. Commands come as lines of JSON, answers go as lines of JSON.
 
-Usage: vtk_peer.py VOLUME.raw NX NY NZ SX SY SZ
+Usage: vtk_peer.py processor|opengl VOLUME.raw NX NY NZ SX SY SZ
 VOLUME.raw: int16, x fastest. A command: {"values": [[value, opacity a mm, r, g, b]...], "gradients": [[a, opacity]...],
 "side": pixels, "step": mm, "azimuth": degrees, "elevation": degrees, "half_height": mm, "file": "x.png"}."""
 import json
@@ -15,17 +15,20 @@ import numpy
 
 
 def main():
-    size = [int(n) for n in sys.argv[2:5]]
-    spacing = [float(s) for s in sys.argv[5:8]]
-    voxels = numpy.fromfile(sys.argv[1], dtype=numpy.int16)
+    size = [int(n) for n in sys.argv[3:6]]
+    spacing = [float(s) for s in sys.argv[6:9]]
+    voxels = numpy.fromfile(sys.argv[2], dtype=numpy.int16)
     image = vtk.vtkImageData()
     image.SetDimensions(size)
     image.SetSpacing(spacing)
     image.GetPointData().SetScalars(numpy_support.numpy_to_vtk(voxels, deep=False))
 
-    mapper = vtk.vtkFixedPointVolumeRayCastMapper()
+    if sys.argv[1] == "opengl":
+        mapper = vtk.vtkOpenGLGPUVolumeRayCastMapper()
+    else:
+        mapper = vtk.vtkFixedPointVolumeRayCastMapper()
     mapper.SetInputData(image)
-    mapper.AutoAdjustSampleDistancesOff()
+    mapper.SetAutoAdjustSampleDistances(0)
     mapper.SetImageSampleDistance(1.0)
     properties = vtk.vtkVolumeProperty()
     properties.ShadeOn()
@@ -82,6 +85,7 @@ def main():
             view.GetActiveCamera().Modified()
             begin = time.perf_counter()
             window.Render()
+            window.WaitForCompletion()
             times.append(time.perf_counter() - begin)
         if command["file"]:
             grab = vtk.vtkWindowToImageFilter()
