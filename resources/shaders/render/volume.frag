@@ -33,6 +33,7 @@ uniform vec3 background;
 #define NEEDS_PHI
 #endif
 
+const int kMostJoined = 8;            // pages
 const int kMostLayers = 64;           // of surface and clip plane along a ray
 
 float t = 0.0;
@@ -128,7 +129,10 @@ void march_in_page(const bool resident, float stride, inout Piece piece) {
     float length_mm = 0.0;
     vec3 gradient = vec3(0.0);
     float middle = 0.0;
-    while (t < page_end && !piece.found && material.a * length_mm <= kLeastOpacity) {
+#ifndef BY_GRADIENT  // which is most of a step: what shows adds little to it
+    while (t < page_end && !piece.found && material.a * length_mm <= kLeastOpacity)
+#endif
+    {
       a = t;
       float next = min(t + stride, page_end);
       stride = step_voxels;
@@ -191,6 +195,21 @@ bool page_shows() {
   return most > kLeastOpacity;
 }
 
+// Takes the pages behind the one entered for a part of it, while they show and phi is the same. Rays side by side leave a
+// page after different numbers of steps, and those that are through wait for the others.
+void join_pages(float stop) {
+  int entered = physical;
+  float joined = page_end;
+  bool like = true;
+  for (int i = 0; i < kMostJoined && like && joined < stop; ++i) {
+    enter_page(joined);
+    like = page_shows() && !phi_varies() && (physical == kInsidePage) == (entered == kInsidePage);
+    if (like) joined = page_end;
+  }
+  physical = entered;
+  page_end = joined;
+}
+
 // Until `stop`, adding the source on the way.
 Piece march(float stop) {
   Piece piece = Piece(false, t, t, 0.0, 0.0);
@@ -206,6 +225,7 @@ Piece march(float stop) {
         if (!shows) t = page_end;
       }
       varies = shows && phi_varies();
+      if (shows && !varies) join_pages(stop);
       page_end = varies ? t : min(page_end, stop);
       march_in_page(false, stride, piece);
     }
