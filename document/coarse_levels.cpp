@@ -48,7 +48,7 @@ Result<std::optional<CoarseStart>> CoarseLevels::run() {
     if (!result_.phi.has_inside()) return std::nullopt;
   }
   const solver::CoarseGrid last(inputs_.source.geometry, 1);
-  result_.phi = solver::refined(result_.phi, last, inputs_.band, inputs_.page_shape);
+  result_.phi = solver::refined(result_.phi, last, inputs_.band, inputs_.page_shape, inputs_.options.threads);
   // A block that is barely inside has no voxel that is.
   if (!result_.phi.has_inside()) return std::nullopt;
   return std::move(result_);
@@ -81,8 +81,8 @@ Result<std::unique_ptr<solver::Executor>> CoarseLevels::make_executor(const solv
 Result<bool> CoarseLevels::begin(solver::Executor& executor, const solver::CoarseGrid& grid) {
   if (!result_.runs.empty()) {
     const solver::CoarseGrid next(grid.coarse(), 1);
-    TIDEMARK_TRY(
-        executor.restore(solver::refined(result_.phi, next, executor.band(), executor.memory().page_shape)));
+    TIDEMARK_TRY(executor.restore(solver::refined(result_.phi, next, executor.band(),
+                                                  executor.memory().page_shape, inputs_.options.threads)));
     return true;
   }
   Start coarse;

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/gtx/component_wise.hpp>
+#include <span>
 #include <vector>
+
+#include "core/thread_pool.h"
 
 namespace tidemark::solver {
 namespace {
@@ -45,23 +48,118 @@ struct Reach {
   std::int64_t last_page = 0;
 };
 
-// phi of a coarse grid at the voxels of the pages of the fine grid.
+using Along = std::array<const Reach*, 3>;  // of a page, by axis
+
+// phi of a coarse grid at the voxels of the pages of the fine grid. Each thread has one.
+class PageRefiner {
+ public:
+  // Writes a page's values, -limit beyond the grid.
+  void refine(const Field& coarse, const Along& along, float scale, float limit, Index3 page_shape,
+              std::span<float> values) {
+    gather(coarse, along);
+    interpolate(along, scale, limit, page_shape, values);
+  }
+
+ private:
+  // Row by row, each as far as a page goes.
+  void gather(const Field& coarse, const Along& along) {
+    const auto [x, y, z] = along;
+    const std::int64_t side = coarse.layout.page_shape().x;
+    const std::int64_t end = x->from + x->size;
+    block_.resize(static_cast<std::size_t>(x->size * y->size * z->size));
+    float* to = block_.data();
+    for_each_voxel({x->from, y->from, z->from}, {1, y->size, z->size}, [&](Index3 voxel) {
+      while (voxel.x < end) {
+        const VirtualAddress address = coarse.layout.translate(voxel);
+        const std::int64_t count = std::min((voxel.x / side + 1) * side, end) - voxel.x;
+        const float* const values = coarse.pages.values(address.page);
+        to = values == nullptr ? std::fill_n(to, count, coarse.constant(address.page))
+                               : std::copy_n(values + address.offset, count, to);
+        voxel.x += count;
+      }
+    });
+  }
+
+  // Along one axis after the other: what lies side by side shares the interpolation along the axes before.
+  void interpolate(const Along& along, float scale, float limit, Index3 page_shape, std::span<float> values) {
+    const auto [x, y, z] = along;
+    const auto width = std::ssize(x->voxels);
+    const auto height = std::ssize(y->voxels);
+    rows_.resize(static_cast<std::size_t>(width * y->size * z->size));
+    float* to = rows_.data();
+    for (const float* row = block_.data(); row != block_.data() + block_.size(); row += x->size) {
+      for (const Between& i : x->voxels) *to++ = mixed(row[i.low], row[i.high], i.weight);
+    }
+    planes_.resize(static_cast<std::size_t>(width * height * z->size));
+    to = planes_.data();
+    for (std::int64_t k = 0; k < z->size; ++k) {
+      const float* const rows = rows_.data() + width * y->size * k;
+      for (const Between& j : y->voxels)
+        to = mix(rows + width * j.low, rows + width * j.high, j.weight, width, to);
+    }
+    std::fill(values.begin(), values.end(), -limit);
+    for (std::size_t k = 0; k < z->voxels.size(); ++k) {
+      const Between& between = z->voxels[k];
+      for (std::int64_t j = 0; j < height; ++j) {
+        const float* const low = planes_.data() + width * (j + height * between.low);
+        const float* const high = planes_.data() + width * (j + height * between.high);
+        float* const row = values.data() + page_shape.x * (j + page_shape.y * static_cast<std::int64_t>(k));
+        mix(low, high, between.weight, width, row);
+        for (std::int64_t i = 0; i < width; ++i) row[i] = std::clamp(scale * row[i], -limit, limit);
+      }
+    }
+  }
+
+  static float mixed(float low, float high, float weight) { return low + weight * (high - low); }
+  static float* mix(const float* low, const float* high, float weight, std::int64_t count, float* to) {
+    for (std::int64_t i = 0; i < count; ++i) to[i] = mixed(low[i], high[i], weight);
+    return to + count;
+  }
+
+  // phi of the coarse voxels that take part, x fastest; then of the page's voxels along x; along x and y.
+  std::vector<float> block_;
+  std::vector<float> rows_;
+  std::vector<float> planes_;
+};
+
+// phi of a coarse grid on the fine one.
 class Refiner {
  public:
   Refiner(const Field& coarse, const CoarseGrid& grid, Field& fine)
-      : coarse_(coarse), grid_(grid), fine_(fine), limit_(static_cast<float>(fine.band)) {
+      : coarse_(coarse), grid_(grid), fine_(fine) {
+    for (std::int64_t page = 0; page < coarse.layout.page_count(); ++page)
+      kinds_.push_back(coarse.pages.kind(page));
     for (int axis = 0; axis < 3; ++axis) {
       for (std::int64_t page = 0; page < fine.layout.pages()[axis]; ++page) add_reach(axis, page);
     }
   }
 
-  void run() {
-    const Index3 pages = fine_.layout.pages();
-    for_each_voxel(Index3(0), pages, [&](Index3 page) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        along_[axis] = &reaches_[axis][static_cast<std::size_t>(page[static_cast<int>(axis)])];
-      refine(fine_.layout.page_number(page));
-    });
+  void run(int threads) {
+    find_pages();
+    // Threads compute, one stores, so that pages lie in memory in their order.
+    constexpr std::int64_t kAtOnce = 256;
+    ThreadPool pool(threads);
+    std::vector<PageRefiner> refiners(static_cast<std::size_t>(pool.threads()));
+    const std::int64_t length = fine_.layout.voxels_per_page();
+    std::vector<float> values(static_cast<std::size_t>(std::min(kAtOnce, std::ssize(varying_)) * length));
+    const auto of = [&](std::int64_t place) {
+      return std::span(values).subspan(static_cast<std::size_t>(place * length),
+                                       static_cast<std::size_t>(length));
+    };
+    for (std::int64_t first = 0; first < std::ssize(varying_); first += kAtOnce) {
+      const auto pages = std::span(varying_).subspan(
+          static_cast<std::size_t>(first),
+          static_cast<std::size_t>(std::min(kAtOnce, std::ssize(varying_) - first)));
+      pool.for_each(std::ssize(pages), 8, [&](std::int64_t begin, std::int64_t end, int member) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          refiners[static_cast<std::size_t>(member)].refine(
+              coarse_, along(pages[static_cast<std::size_t>(i)]), static_cast<float>(grid_.scale()),
+              static_cast<float>(fine_.band), fine_.layout.page_shape(), of(i));
+        }
+      });
+      for (std::int64_t i = 0; i < std::ssize(pages); ++i)
+        fine_.store_page(fine_.layout.page_number(pages[static_cast<std::size_t>(i)]), of(i));
+    }
   }
 
  private:
@@ -82,18 +180,28 @@ class Refiner {
     reaches_[static_cast<std::size_t>(axis)].push_back(std::move(reach));
   }
 
-  void refine(std::int64_t page) {
-    const auto constant = constant_around();
-    if (constant == Field::Kind::outside) return;  // as all of phi is at first
-    if (constant) return fine_.pages.set_constant(page, *constant);
-    gather();
-    interpolate();
-    fine_.store_page(page, values_);
+  [[nodiscard]] Along along(Index3 page) const {
+    Along reaches{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<std::size_t>(axis);
+      reaches[at] = &reaches_[at][static_cast<std::size_t>(page[axis])];
+    }
+    return reaches;
   }
 
-  // What stands for the page where no stored page of the coarse phi reaches it.
-  [[nodiscard]] std::optional<Field::Kind> constant_around() const {
-    const auto [x, y, z] = along_;
+  // Sets the pages that are constant, and remembers the others.
+  void find_pages() {
+    for_each_voxel(Index3(0), fine_.layout.pages(), [&](Index3 page) {
+      const auto constant = constant_around(along(page));
+      if (!constant) return varying_.push_back(page);
+      if (*constant == Field::Kind::outside) return;  // as all of phi is at first
+      fine_.pages.set_constant(fine_.layout.page_number(page), *constant);
+    });
+  }
+
+  // What stands for a page where no stored page of the coarse phi reaches it.
+  [[nodiscard]] std::optional<Field::Kind> constant_around(const Along& along) const {
+    const auto [x, y, z] = along;
     const Field::Kind one = kind_at({x->first_page, y->first_page, z->first_page});
     if (one == Field::Kind::stored) return std::nullopt;
     for (std::int64_t k = z->first_page; k <= z->last_page; ++k) {
@@ -106,66 +214,15 @@ class Refiner {
     return one;
   }
   [[nodiscard]] Field::Kind kind_at(Index3 page) const {
-    return coarse_.pages.kind(coarse_.layout.page_number(page));
-  }
-
-  void gather() {
-    const auto [x, y, z] = along_;
-    block_.clear();
-    for_each_voxel({x->from, y->from, z->from}, {x->size, y->size, z->size},
-                   [&](Index3 voxel) { block_.push_back(coarse_.at(voxel)); });
-  }
-
-  // Along one axis after the other: what lies side by side shares the interpolation along the axes before.
-  void interpolate() {
-    const auto [x, y, z] = along_;
-    const auto width = std::ssize(x->voxels);
-    const auto height = std::ssize(y->voxels);
-    rows_.resize(static_cast<std::size_t>(width * y->size * z->size));
-    float* to = rows_.data();
-    for (const float* row = block_.data(); row != block_.data() + block_.size(); row += x->size) {
-      for (const Between& i : x->voxels) *to++ = mixed(row[i.low], row[i.high], i.weight);
-    }
-    planes_.resize(static_cast<std::size_t>(width * height * z->size));
-    to = planes_.data();
-    for (std::int64_t k = 0; k < z->size; ++k) {
-      const float* const rows = rows_.data() + width * y->size * k;
-      for (const Between& j : y->voxels)
-        to = mix(rows + width * j.low, rows + width * j.high, j.weight, width, to);
-    }
-    values_.assign(static_cast<std::size_t>(fine_.layout.voxels_per_page()), -limit_);
-    const Index3 shape = fine_.layout.page_shape();
-    const auto scale = static_cast<float>(grid_.scale());
-    for (std::size_t k = 0; k < z->voxels.size(); ++k) {
-      const Between& along = z->voxels[k];
-      for (std::int64_t j = 0; j < height; ++j) {
-        const float* const low = planes_.data() + width * (j + height * along.low);
-        const float* const high = planes_.data() + width * (j + height * along.high);
-        float* const row = values_.data() + shape.x * (j + shape.y * static_cast<std::int64_t>(k));
-        mix(low, high, along.weight, width, row);
-        for (std::int64_t i = 0; i < width; ++i) row[i] = std::clamp(scale * row[i], -limit_, limit_);
-      }
-    }
-  }
-
-  static float mixed(float low, float high, float weight) { return low + weight * (high - low); }
-  static float* mix(const float* low, const float* high, float weight, std::int64_t count, float* to) {
-    for (std::int64_t i = 0; i < count; ++i) to[i] = mixed(low[i], high[i], weight);
-    return to + count;
+    return kinds_[static_cast<std::size_t>(coarse_.layout.page_number(page))];
   }
 
   const Field& coarse_;
   const CoarseGrid& grid_;
   Field& fine_;
-  float limit_;
+  std::vector<Field::Kind> kinds_;             // of the coarse pages, each of which is asked for many times
   std::array<std::vector<Reach>, 3> reaches_;  // by axis and page
-  std::array<const Reach*, 3> along_{};        // of the present page
-  // phi of the coarse voxels that take part, x fastest; then of the page's voxels along x; along x and y;
-  // along all.
-  std::vector<float> block_;
-  std::vector<float> rows_;
-  std::vector<float> planes_;
-  std::vector<float> values_;
+  std::vector<Index3> varying_;                // pages
 };
 
 }  // namespace
@@ -253,9 +310,9 @@ Parameters coarsened(const Parameters& parameters, const CoarseGrid& grid) {
   return result;
 }
 
-Field refined(const Field& phi, const CoarseGrid& grid, double band, Index3 page_shape) {
+Field refined(const Field& phi, const CoarseGrid& grid, double band, Index3 page_shape, int threads) {
   Field fine = Field::empty(grid.fine(), band, page_shape);
-  Refiner(phi, grid, fine).run();
+  Refiner(phi, grid, fine).run(threads);
   return fine;
 }
 

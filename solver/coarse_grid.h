@@ -51,6 +51,8 @@ class CoarseGrid {
 [[nodiscard]] Parameters coarsened(const Parameters& parameters, const CoarseGrid& grid);
 
 // phi of the coarse grid on the fine one, between voxels by linear interpolation, clamped to `band`.
-[[nodiscard]] Field refined(const Field& phi, const CoarseGrid& grid, double band, Index3 page_shape);
+// `threads` as of ThreadPool.
+[[nodiscard]] Field refined(const Field& phi, const CoarseGrid& grid, double band, Index3 page_shape,
+                            int threads = 0);
 
 }  // namespace tidemark::solver
