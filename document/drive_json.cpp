@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/checked.h"
+#include "core/index_walk.h"
 #include "document/file_limits.h"
 #include "document/packed_bytes.h"
 #include "solver/speed/speed_registry.h"
@@ -80,11 +81,8 @@ Json packed_voxels(const solver::Constraints& constraints, solver::Constraint wh
   const Index3 size = constraints.layout().domain_size();
   std::vector<std::uint8_t> voxels;
   voxels.reserve(static_cast<std::size_t>(size.x * size.y * size.z));
-  for (std::int64_t z = 0; z < size.z; ++z) {
-    for (std::int64_t y = 0; y < size.y; ++y) {
-      for (std::int64_t x = 0; x < size.x; ++x) voxels.push_back(constraints.at({x, y, z}) == what ? 1 : 0);
-    }
-  }
+  for_each_index(Index3(0), size,
+                 [&](Index3 voxel) { voxels.push_back(constraints.at(voxel) == what ? 1 : 0); });
   return pack_bits(voxels);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/index_walk.h"
 #include "core/region.h"
 #include "document/lesson_figure_names.h"
 #include "document/segment_meshes.h"
@@ -124,12 +125,7 @@ Figure gradient_error(const LessonState& state, const Progress& /*progress*/) {
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     if (!phi.pages.is_stored(page)) continue;
     const Index3 first = phi.layout.first_voxel(page);
-    const Index3 valid = phi.layout.valid_shape(page);
-    for (std::int64_t z = 0; z < valid.z; ++z) {
-      for (std::int64_t y = 0; y < valid.y; ++y) {
-        for (std::int64_t x = 0; x < valid.x; ++x) look_at(first + Index3(x, y, z));
-      }
-    }
+    for_each_index(first, first + phi.layout.valid_shape(page), look_at);
   }
   if (count == 0) return std::nullopt;
   return sum / static_cast<double>(count);

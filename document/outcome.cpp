@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/index_walk.h"
 #include "solver/model.h"
 #include "solver/voxel_values.h"
 
@@ -22,15 +23,8 @@ void visit_pages(const solver::Field& phi, const Wanted& wanted, const Visit& vi
   for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
     if (!wanted(phi.pages.kind(page))) continue;
     const Index3 first = phi.layout.first_voxel(page);
-    const Index3 size = phi.layout.valid_shape(page);
-    for (std::int64_t z = 0; z < size.z; ++z) {
-      for (std::int64_t y = 0; y < size.y; ++y) {
-        for (std::int64_t x = 0; x < size.x; ++x) {
-          const Index3 voxel = first + Index3(x, y, z);
-          visit(voxel, phi.at(voxel));
-        }
-      }
-    }
+    for_each_index(first, first + phi.layout.valid_shape(page),
+                   [&](Index3 voxel) { visit(voxel, phi.at(voxel)); });
   }
 }
 
@@ -56,11 +50,10 @@ double mean_around(const Volume& volume, Index3 voxel) {
   const Index3 last = glm::min(voxel + Index3(1), volume.geometry.size - Index3(1));
   double sum = 0.0;
   int count = 0;
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x, ++count) sum += volume.value({x, y, z});
-    }
-  }
+  for_each_index(first, last + Index3(1), [&](Index3 at) {
+    sum += volume.value(at);
+    ++count;
+  });
   return sum / count;
 }
 

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/index_walk.h"
+
 namespace tidemark::engine {
 
 SliceSlab::SliceSlab(const Geometry& geometry, glm::dvec3 point_mm, glm::dvec3 normal)
@@ -53,18 +55,13 @@ std::vector<std::int64_t> SliceSlab::disc(glm::dvec3 centre_mm, double radius_mm
   const Index3 high = glm::min(Index3(glm::ceil(centre + reach)), geometry_.size - Index3(1));
   const Index3 under(glm::round(centre));
   std::vector<std::int64_t> voxels;
-  for (std::int64_t k = low.z; k <= high.z; ++k) {
-    for (std::int64_t j = low.y; j <= high.y; ++j) {
-      for (std::int64_t i = low.x; i <= high.x; ++i) {
-        const Index3 voxel(i, j, k);
-        if (!contains(voxel)) continue;
-        const glm::dvec3 way = geometry_.to_patient(glm::dvec3(voxel)) - centre_mm;
-        const glm::dvec3 in_plane = way - normal_ * glm::dot(way, normal_);
-        if (voxel == under || glm::dot(in_plane, in_plane) <= radius_mm * radius_mm)
-          voxels.push_back(geometry_.offset(voxel));
-      }
-    }
-  }
+  for_each_index(low, high + Index3(1), [&](Index3 voxel) {
+    if (!contains(voxel)) return;
+    const glm::dvec3 way = geometry_.to_patient(glm::dvec3(voxel)) - centre_mm;
+    const glm::dvec3 in_plane = way - normal_ * glm::dot(way, normal_);
+    if (voxel == under || glm::dot(in_plane, in_plane) <= radius_mm * radius_mm)
+      voxels.push_back(geometry_.offset(voxel));
+  });
   return voxels;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <utility>
 
+#include "core/index_walk.h"
 #include "core/inside.h"
 #include "solver/distance_transform.h"
 #include "solver/speed/distance_map.h"
@@ -35,11 +36,7 @@ class SpreadMap final : public solver::SpeedFunction {
         beside_(beside) {}
 
   void evaluate(const solver::VoxelBox& box, double* share) const override {
-    for (std::int64_t z = 0; z < box.size.z; ++z) {
-      for (std::int64_t y = 0; y < box.size.y; ++y) {
-        for (std::int64_t x = 0; x < box.size.x; ++x) *share++ = at(box.first + Index3(x, y, z));
-      }
-    }
+    for_each_index(box.first, box.first + box.size, [&](Index3 voxel) { *share++ = at(voxel); });
   }
 
  private:

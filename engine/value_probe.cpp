@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/index_walk.h"
 #include "engine/source_summary.h"
 #include "solver/parameters.h"
 
@@ -20,15 +21,10 @@ void ValueProbe::add(glm::dvec3 from_mm, glm::dvec3 to_mm, double radius_mm) {
     const double share = strides > 0 ? static_cast<double>(stride) / strides : 0.0;
     const glm::dvec3 centre = geometry.to_voxel(glm::mix(from_mm, to_mm, share));
     const Index3 nearest(glm::round(centre));
-    for (std::int64_t z = -reach.z; z <= reach.z; ++z) {
-      for (std::int64_t y = -reach.y; y <= reach.y; ++y) {
-        for (std::int64_t x = -reach.x; x <= reach.x; ++x) {
-          const Index3 voxel = nearest + Index3(x, y, z);
-          const bool near = glm::length((glm::dvec3(voxel) - centre) * spacing) <= radius_mm;
-          if (geometry.contains(voxel) && (near || voxel == nearest)) add(voxel);
-        }
-      }
-    }
+    for_each_index(nearest - reach, nearest + reach + Index3(1), [&](Index3 voxel) {
+      const bool near = glm::length((glm::dvec3(voxel) - centre) * spacing) <= radius_mm;
+      if (geometry.contains(voxel) && (near || voxel == nearest)) add(voxel);
+    });
   }
 }
 

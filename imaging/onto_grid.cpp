@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/index_walk.h"
+
 namespace tidemark::imaging {
 namespace {
 
@@ -74,13 +76,9 @@ Result<std::vector<std::int64_t>> matching_voxels(const Geometry& from, const Ge
   }
   std::vector<std::int64_t> offsets;
   offsets.reserve(static_cast<std::size_t>(to.voxel_count()));
-  for (std::int64_t k = 0; k < to.size.z; ++k) {
-    for (std::int64_t j = 0; j < to.size.y; ++j) {
-      for (std::int64_t i = 0; i < to.size.x; ++i) {
-        offsets.push_back(first + i * stride[0] + j * stride[1] + k * stride[2]);
-      }
-    }
-  }
+  for_each_index(Index3(0), to.size, [&](Index3 v) {
+    offsets.push_back(first + v.x * stride[0] + v.y * stride[1] + v.z * stride[2]);
+  });
   return offsets;
 }
 

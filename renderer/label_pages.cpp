@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/index_walk.h"
 #include "core/label_colour.h"
 #include "core/thread_pool.h"
 
@@ -31,13 +32,8 @@ std::vector<std::int64_t> pages_around(const PageLayout& layout, const VoxelRang
   std::vector<std::int64_t> pages;
   if (box.empty()) return pages;
   const VoxelRange around = box.widened(Index3(reach), layout.domain_size());
-  const Index3 low = around.low / layout.page_shape();
-  const Index3 high = (around.high - Index3(1)) / layout.page_shape();
-  for (std::int64_t z = low.z; z <= high.z; ++z) {
-    for (std::int64_t y = low.y; y <= high.y; ++y) {
-      for (std::int64_t x = low.x; x <= high.x; ++x) pages.push_back(layout.page_number({x, y, z}));
-    }
-  }
+  for_each_page(layout, around.low, around.high,
+                [&](Index3 page) { pages.push_back(layout.page_number(page)); });
   return pages;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "core/index_walk.h"
 #include "core/thread_pool.h"
 
 namespace tidemark::renderer {
@@ -34,14 +35,10 @@ struct Tile {
       return;
     }
     labels.reserve(static_cast<std::size_t>(size.x * size.y * size.z));
-    for (std::int64_t z = 0; z < size.z; ++z) {
-      for (std::int64_t y = 0; y < size.y; ++y) {
-        for (std::int64_t x = 0; x < size.x; ++x) {
-          const Index3 at = glm::clamp(first + Index3(x, y, z), Index3(0), last) - low;
-          labels.push_back(known[static_cast<std::size_t>(number_in(there, at))]);
-        }
-      }
-    }
+    for_each_index(first, first + size, [&](Index3 voxel) {
+      const Index3 at = glm::clamp(voxel, Index3(0), last) - low;
+      labels.push_back(known[static_cast<std::size_t>(number_in(there, at))]);
+    });
   }
 
   // Of the voxel in the page.
@@ -111,11 +108,7 @@ VoxelRange LabelVolume::prepare_borders() {
     const Index3 shape = layout_.valid_shape(page);
     std::vector<std::uint8_t> values;
     values.reserve(static_cast<std::size_t>(shape.x * shape.y * shape.z));
-    for (std::int64_t z = 0; z < shape.z; ++z) {
-      for (std::int64_t y = 0; y < shape.y; ++y) {
-        for (std::int64_t x = 0; x < shape.x; ++x) values.push_back(tile.share({x, y, z}));
-      }
-    }
+    for_each_index(Index3(0), shape, [&](Index3 voxel) { values.push_back(tile.share(voxel)); });
     shares_.write(layout_.first_voxel(page), shape, values.data());
   };
   ThreadPool pool;

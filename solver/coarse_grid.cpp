@@ -8,21 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "core/index_walk.h"
 #include "core/thread_pool.h"
 
 namespace tidemark::solver {
 namespace {
 
 constexpr std::int64_t kSmallEnough = std::int64_t{1} << 21;  // voxels
-
-template <class Visit>
-void for_each_voxel(Index3 first, Index3 size, Visit visit) {
-  for (std::int64_t k = first.z; k < first.z + size.z; ++k) {
-    for (std::int64_t j = first.y; j < first.y + size.y; ++j) {
-      for (std::int64_t i = first.x; i < first.x + size.x; ++i) visit(Index3(i, j, k));
-    }
-  }
-}
 
 // The voxels before and after a place along an axis, and how far it lies from the first to the second.
 struct Between {
@@ -68,16 +60,17 @@ class PageRefiner {
     const std::int64_t end = x->from + x->size;
     block_.resize(static_cast<std::size_t>(x->size * y->size * z->size));
     float* to = block_.data();
-    for_each_voxel({x->from, y->from, z->from}, {1, y->size, z->size}, [&](Index3 voxel) {
-      while (voxel.x < end) {
-        const VirtualAddress address = coarse.layout.translate(voxel);
-        const std::int64_t count = std::min((voxel.x / side + 1) * side, end) - voxel.x;
-        const float* const values = coarse.pages.values(address.page);
-        to = values == nullptr ? std::fill_n(to, count, coarse.constant(address.page))
-                               : std::copy_n(values + address.offset, count, to);
-        voxel.x += count;
-      }
-    });
+    for_each_index({x->from, y->from, z->from}, {x->from + 1, y->from + y->size, z->from + z->size},
+                   [&](Index3 voxel) {
+                     while (voxel.x < end) {
+                       const VirtualAddress address = coarse.layout.translate(voxel);
+                       const std::int64_t count = std::min((voxel.x / side + 1) * side, end) - voxel.x;
+                       const float* const values = coarse.pages.values(address.page);
+                       to = values == nullptr ? std::fill_n(to, count, coarse.constant(address.page))
+                                              : std::copy_n(values + address.offset, count, to);
+                       voxel.x += count;
+                     }
+                   });
   }
 
   // Along one axis after the other: what lies side by side shares the interpolation along the axes before.
@@ -191,7 +184,7 @@ class Refiner {
 
   // Sets the pages that are constant, and remembers the others.
   void find_pages() {
-    for_each_voxel(Index3(0), fine_.layout.pages(), [&](Index3 page) {
+    for_each_index(Index3(0), fine_.layout.pages(), [&](Index3 page) {
       const auto constant = constant_around(along(page));
       if (!constant) return varying_.push_back(page);
       if (*constant == Field::Kind::outside) return;  // as all of phi is at first
@@ -203,15 +196,11 @@ class Refiner {
   [[nodiscard]] std::optional<Field::Kind> constant_around(const Along& along) const {
     const auto [x, y, z] = along;
     const Field::Kind one = kind_at({x->first_page, y->first_page, z->first_page});
-    if (one == Field::Kind::stored) return std::nullopt;
-    for (std::int64_t k = z->first_page; k <= z->last_page; ++k) {
-      for (std::int64_t j = y->first_page; j <= y->last_page; ++j) {
-        for (std::int64_t i = x->first_page; i <= x->last_page; ++i) {
-          if (kind_at({i, j, k}) != one) return std::nullopt;
-        }
-      }
-    }
-    return one;
+    const bool same = one != Field::Kind::stored &&
+                      all_indices({x->first_page, y->first_page, z->first_page},
+                                  Index3(x->last_page, y->last_page, z->last_page) + Index3(1),
+                                  [&](Index3 page) { return kind_at(page) == one; });
+    return same ? std::optional(one) : std::nullopt;
   }
   [[nodiscard]] Field::Kind kind_at(Index3 page) const {
     return kinds_[static_cast<std::size_t>(coarse_.layout.page_number(page))];
@@ -260,10 +249,11 @@ Mask coarsened(const Inside& inside, const CoarseGrid& grid) {
   result.voxels.reserve(static_cast<std::size_t>(grid.coarse().voxel_count()));
   std::vector<std::uint8_t> row(static_cast<std::size_t>(grid.fine().size.x));
   std::vector<std::int64_t> counts(static_cast<std::size_t>(blocks.x));  // voxels inside in a row of blocks
-  for_each_voxel(Index3(0), {1, blocks.y, blocks.z}, [&](Index3 first) {
+  for_each_index(Index3(0), {1, blocks.y, blocks.z}, [&](Index3 first) {
     std::fill(counts.begin(), counts.end(), 0);
     const Index3 size = grid.size_of(first);
-    for_each_voxel(grid.first_of(first), {1, size.y, size.z}, [&](Index3 voxel) {
+    const Index3 row_of_blocks = grid.first_of(first);
+    for_each_index(row_of_blocks, row_of_blocks + Index3(1, size.y, size.z), [&](Index3 voxel) {
       inside.read(inside.geometry.offset(voxel), row);
       for (std::size_t x = 0; x < row.size(); ++x) {
         counts[x / static_cast<std::size_t>(grid.factor().x)] += row[x];
@@ -285,10 +275,10 @@ Constraints coarsened(const Constraints& constraints, const CoarseGrid& grid) {
     // Sides of pages are multiples of every factor: no block lies in two of them.
     const Index3 first = layout.first_voxel(page) / grid.factor();
     const Index3 count = (layout.valid_shape(page) + grid.factor() - Index3(1)) / grid.factor();
-    for_each_voxel(first, count, [&](Index3 block) {
+    for_each_index(first, first + count, [&](Index3 block) {
       bool wall = false;
       bool anchor = true;
-      for_each_voxel(grid.first_of(block), grid.size_of(block), [&](Index3 voxel) {
+      for_each_index(grid.first_of(block), grid.first_of(block) + grid.size_of(block), [&](Index3 voxel) {
         const Constraint constraint = constraints.at(voxel);
         wall = wall || constraint == Constraint::wall;
         anchor = anchor && constraint == Constraint::anchor;

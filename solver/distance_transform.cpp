@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/index_walk.h"
 #include "core/thread_pool.h"
 #include "solver/box_distances.h"
 
@@ -124,13 +125,9 @@ class PageDistances {
     const Index3 end_page = glm::min(first_page + block_, layout_.pages());
     bool any = false;
     const auto for_each_near = [&](const auto& visit) {
-      for (std::int64_t z = first_page.z; z < end_page.z; ++z) {
-        for (std::int64_t y = first_page.y; y < end_page.y; ++y) {
-          for (std::int64_t x = first_page.x; x < end_page.x; ++x) {
-            if (const std::int64_t page = layout_.page_number({x, y, z}); is_near(page)) visit(page);
-          }
-        }
-      }
+      for_each_index(first_page, end_page, [&](Index3 coordinates) {
+        if (const std::int64_t page = layout_.page_number(coordinates); is_near(page)) visit(page);
+      });
     };
     for_each_near([&](std::int64_t) { any = true; });
     if (!any) return;

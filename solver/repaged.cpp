@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/index_walk.h"
 #include "solver/field.h"
 
 namespace tidemark::solver {
@@ -29,20 +30,11 @@ class Repager {
       return;
     }
     std::fill(values_.begin(), values_.end(), -new_limit_);
-    for_each_page(first_source, end_source, [&](Index3 source) { copy(source, first, end); });
+    for_each_index(first_source, end_source, [&](Index3 source) { copy(source, first, end); });
     to_.store_page(page, values_);
   }
 
  private:
-  template <class Visit>
-  static void for_each_page(Index3 first, Index3 end, Visit visit) {
-    for (std::int64_t z = first.z; z < end.z; ++z) {
-      for (std::int64_t y = first.y; y < end.y; ++y) {
-        for (std::int64_t x = first.x; x < end.x; ++x) visit(Index3(x, y, z));
-      }
-    }
-  }
-
   [[nodiscard]] Field::Kind kind_at(Index3 source) const {
     return from_.pages.kind(from_.layout.page_number(source));
   }
@@ -50,8 +42,8 @@ class Repager {
   // What all these pages are; none when one is stored or they differ.
   [[nodiscard]] std::optional<Field::Kind> constant_in(Index3 first, Index3 end) const {
     const Field::Kind one = kind_at(first);
-    bool same = one != Field::Kind::stored;
-    for_each_page(first, end, [&](Index3 source) { same = same && kind_at(source) == one; });
+    const bool same = one != Field::Kind::stored &&
+                      all_indices(first, end, [&](Index3 source) { return kind_at(source) == one; });
     return same ? std::optional(one) : std::nullopt;
   }
 

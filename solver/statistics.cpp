@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "core/index_walk.h"
 #include "solver/page_with_apron.h"
 #include "solver/paging/page_neighbours.h"
 
@@ -72,15 +73,6 @@ double share_inside(double value, double change) {
   return std::clamp(0.5 + value / change, 0.0, 1.0);
 }
 
-template <class Visit>
-void for_each_voxel(Index3 shape, Visit visit) {
-  for (Index3 voxel(0); voxel.z < shape.z; ++voxel.z) {
-    for (voxel.y = 0; voxel.y < shape.y; ++voxel.y) {
-      for (voxel.x = 0; voxel.x < shape.x; ++voxel.x) visit(voxel);
-    }
-  }
-}
-
 }  // namespace
 
 SurfaceMeter::PageSums SurfaceMeter::sums_of(const Field& phi, std::int64_t page, PageWithApron& values) {
@@ -88,7 +80,7 @@ SurfaceMeter::PageSums SurfaceMeter::sums_of(const Field& phi, std::int64_t page
   const Geometry& geometry = phi.geometry;
   const Index3 first = phi.layout.first_voxel(page);
   values.gather(page);
-  for_each_voxel(phi.layout.valid_shape(page), [&](Index3 local) {
+  for_each_index(Index3(0), phi.layout.valid_shape(page), [&](Index3 local) {
     const Index3 voxel = first + local;
     const double value = values.at(local);
     if (value > 0.0) ++sums.voxels_inside;

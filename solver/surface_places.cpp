@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <unordered_map>
 
+#include "core/index_walk.h"
+
 namespace tidemark::solver {
 namespace {
 
@@ -37,13 +39,8 @@ class Thinned {
   void add(glm::dvec3 place, glm::dvec3 place_mm) {
     const Index3 cube(glm::floor(place_mm / apart_mm_));
     if (is_near(cube, place_mm)) return;  // mostly
-    for (std::int64_t z = -1; z <= 1; ++z) {
-      for (std::int64_t y = -1; y <= 1; ++y) {
-        for (std::int64_t x = -1; x <= 1; ++x) {
-          if (is_near(cube + Index3(x, y, z), place_mm)) return;
-        }
-      }
-    }
+    const auto is_far = [&](Index3 other) { return !is_near(other, place_mm); };
+    if (!all_indices(cube - Index3(1), cube + Index3(2), is_far)) return;
     kept_[key(cube)] = place_mm;
     places.push_back(place);
   }
@@ -83,23 +80,18 @@ void for_each_crossing(const Field& phi, std::int64_t page, Visit visit) {
   const Index3 first = phi.layout.first_voxel(page);
   const Index3 valid = phi.layout.valid_shape(page);
   const float* const values = phi.pages.values(page);
-  for (std::int64_t z = 0; z < valid.z; ++z) {
-    for (std::int64_t y = 0; y < valid.y; ++y) {
-      for (std::int64_t x = 0; x < valid.x; ++x) {
-        const Index3 here(x, y, z);
-        const float* value = values + x + strides.y * y + strides.z * z;
-        for (int axis = 0; axis < 3; ++axis) {
-          Index3 next = first + here;
-          if (++next[axis] >= phi.geometry.size[axis]) continue;
-          const float there = here[axis] + 1 < shape[axis] ? value[strides[axis]] : phi.at(next);
-          if (is_inside(*value) == is_inside(there)) continue;
-          glm::dvec3 place(first + here);
-          place[axis] += *value / (*value - there);
-          visit(place);
-        }
-      }
+  for_each_index(Index3(0), valid, [&](Index3 here) {
+    const float* value = values + number_in(shape, here);
+    for (int axis = 0; axis < 3; ++axis) {
+      Index3 next = first + here;
+      if (++next[axis] >= phi.geometry.size[axis]) continue;
+      const float there = here[axis] + 1 < shape[axis] ? value[strides[axis]] : phi.at(next);
+      if (is_inside(*value) == is_inside(there)) continue;
+      glm::dvec3 place(first + here);
+      place[axis] += *value / (*value - there);
+      visit(place);
     }
-  }
+  });
 }
 
 }  // namespace

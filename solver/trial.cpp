@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/index_walk.h"
 #include "gpu/device.h"
 #include "solver/compute/compute_executor.h"
 #include "solver/host/host_executor.h"
@@ -46,14 +47,10 @@ std::shared_ptr<const Volume> trial_source() {
   std::vector<std::int16_t> values(static_cast<std::size_t>(volume->geometry.voxel_count()));
   const glm::dvec3 middle = 0.5 * glm::dvec3(kSize - Index3(1));
   std::size_t at = 0;
-  for (std::int64_t k = 0; k < kSize.z; ++k) {
-    for (std::int64_t j = 0; j < kSize.y; ++j) {
-      for (std::int64_t i = 0; i < kSize.x; ++i) {
-        const double radius = glm::length(glm::dvec3(i, j, k) - middle);
-        values[at++] = static_cast<std::int16_t>(std::lround(kInside / (1.0 + std::exp(radius - 17.0))));
-      }
-    }
-  }
+  for_each_index(Index3(0), kSize, [&](Index3 voxel) {
+    const double radius = glm::length(glm::dvec3(voxel) - middle);
+    values[at++] = static_cast<std::int16_t>(std::lround(kInside / (1.0 + std::exp(radius - 17.0))));
+  });
   volume->voxels = std::move(values);
   return volume;
 }

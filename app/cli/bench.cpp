@@ -8,6 +8,7 @@
 #include "app/cli/program.h"
 #include "app/cli/report.h"
 #include "app/cli/solver_options.h"
+#include "core/index_walk.h"
 #include "imaging/filters/filters.h"
 #include "imaging/phantom/phantom.h"
 #include "solver/distance_transform.h"
@@ -53,15 +54,10 @@ Case make_ball(std::int64_t size) {
   voxels.reserve(static_cast<std::size_t>(volume->geometry.voxel_count()));
   const double middle = 0.5 * static_cast<double>(size - 1);
   const double radius = 0.35 * static_cast<double>(size);
-  for (std::int64_t k = 0; k < size; ++k) {
-    for (std::int64_t j = 0; j < size; ++j) {
-      for (std::int64_t i = 0; i < size; ++i) {
-        const double distance = glm::length(glm::dvec3(i, j, k) - middle) - radius;
-        voxels.push_back(
-            static_cast<std::int16_t>(std::lround(1000.0 * std::clamp(0.5 - distance, 0.0, 1.0))));
-      }
-    }
-  }
+  for_each_index(Index3(0), Index3(size), [&](Index3 voxel) {
+    const double distance = glm::length(glm::dvec3(voxel) - middle) - radius;
+    voxels.push_back(static_cast<std::int16_t>(std::lround(1000.0 * std::clamp(0.5 - distance, 0.0, 1.0))));
+  });
   volume->voxels = std::move(voxels);
   Case result;
   result.volume = std::move(volume);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/index_walk.h"
 #include "core/thread_pool.h"
 #include "core/typed_volume.h"
 
@@ -42,16 +43,12 @@ Spread neighbourhood(const TypedVolume<Stored>& volume, Index3 centre) {
   double squares = 0.0;
   double count = 0.0;
   const double shift = volume.value(centre);  // keeps the squares small
-  for (std::int64_t k = low.z; k <= high.z; ++k) {
-    for (std::int64_t j = low.y; j <= high.y; ++j) {
-      for (std::int64_t i = low.x; i <= high.x; ++i) {
-        const double value = volume.value(Index3(i, j, k)) - shift;
-        sum += value;
-        squares += value * value;
-        count += 1.0;
-      }
-    }
-  }
+  for_each_index(low, high + Index3(1), [&](Index3 voxel) {
+    const double value = volume.value(voxel) - shift;
+    sum += value;
+    squares += value * value;
+    count += 1.0;
+  });
   const double mean = sum / count;
   return {mean + shift, std::max(0.0, squares / count - mean * mean)};
 }

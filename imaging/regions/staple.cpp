@@ -5,6 +5,8 @@
 
 #include <glm/common.hpp>
 
+#include "core/index_walk.h"
+
 namespace tidemark::imaging {
 namespace {
 
@@ -55,13 +57,9 @@ Result<TruthEstimate> estimate_truth(const std::vector<Region>& readers, const G
 
   TruthEstimate estimate{Region(box), {}};
   const double* likelihood = filter->GetOutput()->GetBufferPointer();
-  for (std::int64_t k = box.low.z; k < box.high.z; ++k) {
-    for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
-      for (std::int64_t i = box.low.x; i < box.high.x; ++i, ++likelihood) {
-        if (*likelihood > 0.5) estimate.region.add({i, j, k});
-      }
-    }
-  }
+  for_each_index(box.low, box.high, [&](Index3 voxel) {
+    if (*likelihood++ > 0.5) estimate.region.add(voxel);
+  });
   for (unsigned n = 0; n < readers.size(); ++n) {
     estimate.readers.push_back(
         {filter->GetSensitivity(n), filter->GetSpecificity(n), dice(readers[n], estimate.region)});

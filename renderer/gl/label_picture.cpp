@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "core/index_walk.h"
+
 namespace tidemark::renderer {
 namespace {
 
@@ -87,33 +89,29 @@ Status LabelPicture::upload(gpu::Device& device, const VoxelRange& box) {
     lacks.clear();
     return {};
   };
-  const Index3 first = box.low / layout.page_shape();
-  const Index3 last = (box.high - Index3(1)) / layout.page_shape();
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        const std::int64_t block = layout.page_number({x, y, z});
-        const Index3 voxel = layout.first_voxel(block);
-        const Index3 shape = layout.valid_shape(block);
-        if (volume_.voxels().even_value(voxel, shape) == 0 &&
-            volume_.shares().even_value(voxel, shape) == kAll) {
-          empty.push_back(block);
-          continue;
-        }
-        const Block label = block_of(volume_.voxels(), voxel, shape, 0);
-        Block lack = block_of(volume_.shares(), voxel, shape, kAll);
-        for (std::uint8_t& value : lack) value = static_cast<std::uint8_t>(kAll - value);
-        if (label == Block{} && lack == Block{}) {
-          empty.push_back(block);
-          continue;
-        }
-        written.push_back(block);
-        labels.push_back(label);
-        lacks.push_back(lack);
-        if (written.size() == kBlocksAtATime) TIDEMARK_TRY(write());
-      }
+  Status status;
+  all_pages(layout, box.low, box.high, [&](Index3 coordinates) {
+    const std::int64_t block = layout.page_number(coordinates);
+    const Index3 voxel = layout.first_voxel(block);
+    const Index3 shape = layout.valid_shape(block);
+    Block label{};
+    Block lack{};
+    if (volume_.voxels().even_value(voxel, shape) != 0 || volume_.shares().even_value(voxel, shape) != kAll) {
+      label = block_of(volume_.voxels(), voxel, shape, 0);
+      lack = block_of(volume_.shares(), voxel, shape, kAll);
+      for (std::uint8_t& value : lack) value = static_cast<std::uint8_t>(kAll - value);
     }
-  }
+    if (label == Block{} && lack == Block{}) {
+      empty.push_back(block);
+      return true;
+    }
+    written.push_back(block);
+    labels.push_back(label);
+    lacks.push_back(lack);
+    if (written.size() == kBlocksAtATime) status = write();
+    return status.has_value();
+  });
+  TIDEMARK_TRY(status);
   blocks_.remove(empty);
   return write();
 }

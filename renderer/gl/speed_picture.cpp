@@ -1,7 +1,6 @@
 #include "renderer/gl/speed_picture.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include "renderer/plane_blocks.h"
 
 namespace tidemark::renderer {
 
@@ -17,26 +16,8 @@ gpu::Defines SpeedPicture::defines() const {
 Status SpeedPicture::fill_plane(gpu::Device& device, const glm::dmat4& voxel_from_view) {
   if (!is_evaluated()) return {};
   TIDEMARK_TRY(textures_.set_function(device, function_));
-  const glm::dvec3 middle(voxel_from_view[3]);
-  const glm::dvec3 right(voxel_from_view[0]);
-  const glm::dvec3 up(voxel_from_view[1]);
-  const glm::dvec3 normal = glm::cross(right, up);
-  // What is between voxels needs those on both sides.
-  const glm::dvec3 reach = glm::abs(right) + glm::abs(up) + 1.0;
-  const glm::dvec3 end(blocks_.domain_size() - Index3(1));
-  const Index3 first = Index3(glm::clamp(glm::floor(middle - reach), glm::dvec3(0.0), end)) / Index3(8);
-  const Index3 last = Index3(glm::clamp(glm::ceil(middle + reach), glm::dvec3(0.0), end)) / Index3(8);
-  constexpr double kHalfBlock = 4.5;  // and the voxels before and behind it
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        const Index3 voxel = Index3(x, y, z) * kDefaultPageShape;
-        const double distance = glm::dot(normal, glm::dvec3(voxel) + 3.5 - middle);
-        const glm::dvec3 extent = glm::abs(normal) * kHalfBlock;
-        if (std::abs(distance) <= extent.x + extent.y + extent.z) textures_.wanted().want({voxel, Index3(1)});
-      }
-    }
-  }
+  for (const Index3 voxel : blocks_on_plane(blocks_, voxel_from_view))
+    textures_.wanted().want({voxel, Index3(1)});
   return textures_.fill(device);
 }
 

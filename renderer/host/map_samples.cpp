@@ -4,7 +4,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/index_walk.h"
 #include "renderer/host/trilinear.h"
+#include "renderer/plane_blocks.h"
 
 namespace tidemark::renderer {
 namespace {
@@ -32,44 +34,18 @@ void MapSamples::set_function(std::shared_ptr<const solver::SpeedFunction> funct
 }
 
 void MapSamples::want(const solver::VoxelBox& box) {
-  const Index3 first = box.first / kDefaultPageShape;
-  const Index3 last = (box.first + box.size - Index3(1)) / kDefaultPageShape;
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        const std::int64_t block = blocks_.page_number({x, y, z});
-        std::int32_t& place = places_[static_cast<std::size_t>(block)];
-        if (place != kMissing) continue;
-        wanted_.push_back(block);
-        place = kWanted;
-      }
-    }
-  }
+  for_each_page(blocks_, box.first, box.first + box.size, [&](Index3 coordinates) {
+    const std::int64_t block = blocks_.page_number(coordinates);
+    std::int32_t& place = places_[static_cast<std::size_t>(block)];
+    if (place != kMissing) return;
+    wanted_.push_back(block);
+    place = kWanted;
+  });
 }
 
 void MapSamples::fill_plane(const glm::dmat4& voxel_from_view, ThreadPool& threads) {
   if (!is_evaluated()) return;
-  const glm::dvec3 middle(voxel_from_view[3]);
-  const glm::dvec3 right(voxel_from_view[0]);
-  const glm::dvec3 up(voxel_from_view[1]);
-  const glm::dvec3 normal = glm::cross(right, up);
-  // What is between voxels needs those on both sides.
-  const glm::dvec3 reach = glm::abs(right) + glm::abs(up) + 1.0;
-  const glm::dvec3 end(size_ - 1);
-  const Index3 first = Index3(glm::clamp(glm::floor(middle - reach), glm::dvec3(0.0), end)) / Index3(kSide);
-  const Index3 last = Index3(glm::clamp(glm::ceil(middle + reach), glm::dvec3(0.0), end)) / Index3(kSide);
-  constexpr double kHalfBlock = 4.5;  // and the voxels before and behind it
-  const glm::dvec3 extent = glm::abs(normal) * kHalfBlock;
-  const double farthest = extent.x + extent.y + extent.z;
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        const Index3 voxel = Index3(x, y, z) * kDefaultPageShape;
-        const double distance = glm::dot(normal, glm::dvec3(voxel) + 3.5 - middle);
-        if (std::abs(distance) <= farthest) want({voxel, Index3(1)});
-      }
-    }
-  }
+  for (const Index3 voxel : blocks_on_plane(blocks_, voxel_from_view)) want({voxel, Index3(1)});
   fill(threads);
 }
 

@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "core/index_walk.h"
 #include "core/without_exceptions.h"
 
 namespace tidemark::solver {
@@ -45,18 +46,12 @@ void FilledBlocks::forget() {
 }
 
 void FilledBlocks::want(const VoxelBox& box) {
-  const Index3 first = box.first / kDefaultPageShape;
-  const Index3 last = (box.first + box.size - Index3(1)) / kDefaultPageShape;
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        const std::int64_t block = blocks_.layout().page_number({x, y, z});
-        if (there_[static_cast<std::size_t>(block)]) continue;
-        there_[static_cast<std::size_t>(block)] = true;
-        wanted_.push_back(block);
-      }
-    }
-  }
+  for_each_page(blocks_.layout(), box.first, box.first + box.size, [&](Index3 coordinates) {
+    const std::int64_t block = blocks_.layout().page_number(coordinates);
+    if (there_[static_cast<std::size_t>(block)]) return;
+    there_[static_cast<std::size_t>(block)] = true;
+    wanted_.push_back(block);
+  });
 }
 
 void FilledBlocks::want_around(const PageLayout& layout, std::span<const std::int64_t> pages, Index3 reach) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/index_walk.h"
 #include "solver/host/page_constraints.h"
 
 namespace tidemark::solver {
@@ -40,11 +41,7 @@ struct Stroke {
     const glm::dvec3 reach = (sphere.radius_mm + static_cast<double>(band) * unit_mm) / geometry.spacing_mm;
     const Index3 first = page_at(glm::floor(centre - reach));
     const Index3 last = page_at(glm::ceil(centre + reach));
-    for (std::int64_t z = first.z; z <= last.z; ++z) {
-      for (std::int64_t y = first.y; y <= last.y; ++y) {
-        for (std::int64_t x = first.x; x <= last.x; ++x) visit(Index3(x, y, z));
-      }
-    }
+    for_each_index(first, last + Index3(1), visit);
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/index_walk.h"
+
 namespace tidemark::solver {
 namespace {
 
@@ -13,19 +15,15 @@ Index3 across(const Geometry& geometry, Index3 voxel, int axis, int side) {
 }
 
 Status validate_values(const Field& phi, Index3 first, Index3 valid) {
-  for (std::int64_t z = 0; z < valid.z; ++z) {
-    for (std::int64_t y = 0; y < valid.y; ++y) {
-      for (std::int64_t x = 0; x < valid.x; ++x) {
-        const Index3 v = first + Index3(x, y, z);
-        const double value = phi.at(v);
-        if (!std::isfinite(value) || std::abs(value) > phi.band) {
-          return fail(ErrorKind::internal, "phi is {} at voxel ({}, {}, {}), the band is {}", value, v.x, v.y,
-                      v.z, phi.band);
-        }
-      }
-    }
-  }
-  return {};
+  Status valid_values;
+  all_indices(first, first + valid, [&](Index3 v) {
+    const double value = phi.at(v);
+    if (std::isfinite(value) && std::abs(value) <= phi.band) return true;
+    valid_values = fail(ErrorKind::internal, "phi is {} at voxel ({}, {}, {}), the band is {}", value, v.x,
+                        v.y, v.z, phi.band);
+    return false;
+  });
+  return valid_values;
 }
 
 // One face of a page, against the constant across it when that page is not resident.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/index_walk.h"
 #include "solver/reference/gather-inl.h"
 #include "solver/speed/update-inl.h"
 
@@ -44,14 +45,10 @@ double ReferenceExecutor::constrained(Index3 voxel, double phi) const {
 void ReferenceExecutor::constrain() {
   if (constraints_ == nullptr) return;
   const Geometry& geometry = source_->geometry;
-  for (std::int64_t z = 0; z < geometry.size.z; ++z) {
-    for (std::int64_t y = 0; y < geometry.size.y; ++y) {
-      for (std::int64_t x = 0; x < geometry.size.x; ++x) {
-        double& phi = phi_[static_cast<std::size_t>(geometry.offset({x, y, z}))];
-        phi = constrained({x, y, z}, phi);
-      }
-    }
-  }
+  for_each_index(Index3(0), geometry.size, [&](Index3 voxel) {
+    double& phi = phi_[static_cast<std::size_t>(geometry.offset(voxel))];
+    phi = constrained(voxel, phi);
+  });
 }
 
 void ReferenceExecutor::set_values(std::vector<double> phi) {
@@ -111,18 +108,12 @@ Result<Field> ReferenceExecutor::snapshot() const {
 
 Status ReferenceExecutor::paint(const Sphere& sphere, Brush brush) {
   const Geometry& geometry = source_->geometry;
-  for (std::int64_t z = 0; z < geometry.size.z; ++z) {
-    for (std::int64_t y = 0; y < geometry.size.y; ++y) {
-      for (std::int64_t x = 0; x < geometry.size.x; ++x) {
-        const double distance_mm =
-            sphere.radius_mm - glm::distance(geometry.to_patient({x, y, z}), sphere.centre_mm);
-        const double d =
-            std::clamp(distance_mm / model_.smallest_spacing_mm(), -model_.band(), model_.band());
-        double& phi = phi_[static_cast<std::size_t>(geometry.offset({x, y, z}))];
-        phi = brush == Brush::add ? std::max(phi, d) : std::min(phi, -d);
-      }
-    }
-  }
+  for_each_index(Index3(0), geometry.size, [&](Index3 voxel) {
+    const double distance_mm = sphere.radius_mm - glm::distance(geometry.to_patient(voxel), sphere.centre_mm);
+    const double d = std::clamp(distance_mm / model_.smallest_spacing_mm(), -model_.band(), model_.band());
+    double& phi = phi_[static_cast<std::size_t>(geometry.offset(voxel))];
+    phi = brush == Brush::add ? std::max(phi, d) : std::min(phi, -d);
+  });
   constrain();
   begin_window();
   return {};
@@ -160,26 +151,21 @@ void ReferenceExecutor::step() {
   const StepConstants<double> constants = model_.constants<double>();
   const auto update = HWY_NAMESPACE::update_constants<double>(constants);
   const bool is_measured = next_step_is_measured();
-  for (std::int64_t z = 0; z < geometry.size.z; ++z) {
-    for (std::int64_t y = 0; y < geometry.size.y; ++y) {
-      for (std::int64_t x = 0; x < geometry.size.x; ++x) {
-        const auto i = static_cast<std::size_t>(geometry.offset({x, y, z}));
-        const Stencil<double> stencil = gather(phi_, geometry, {x, y, z});
-        const auto d = HWY_NAMESPACE::differences<true, double>(stencil, update.inverse_spacing);
-        const double data = constants.time_step * constants.data_weight * speed_values_[i];
-        double advected = 0.0;
-        if (!advection_.empty()) {
-          const glm::dvec3 per_step = constants.time_step * glm::dvec3(advection_[i]);
-          advected = HWY_NAMESPACE::advected<double>(
-              stencil, {per_step.x * update.inverse_spacing[0], per_step.y * update.inverse_spacing[1],
-                        per_step.z * update.inverse_spacing[2]});
-        }
-        next_[i] =
-            constrained({x, y, z}, HWY_NAMESPACE::updated_phi<kPaper, double>(d, data, update, advected));
-        if (is_measured) measure({x, y, z}, next_[i], constants.near);
-      }
+  for_each_index(Index3(0), geometry.size, [&](Index3 voxel) {
+    const auto i = static_cast<std::size_t>(geometry.offset(voxel));
+    const Stencil<double> stencil = gather(phi_, geometry, voxel);
+    const auto d = HWY_NAMESPACE::differences<true, double>(stencil, update.inverse_spacing);
+    const double data = constants.time_step * constants.data_weight * speed_values_[i];
+    double advected = 0.0;
+    if (!advection_.empty()) {
+      const glm::dvec3 per_step = constants.time_step * glm::dvec3(advection_[i]);
+      advected = HWY_NAMESPACE::advected<double>(
+          stencil, {per_step.x * update.inverse_spacing[0], per_step.y * update.inverse_spacing[1],
+                    per_step.z * update.inverse_spacing[2]});
     }
-  }
+    next_[i] = constrained(voxel, HWY_NAMESPACE::updated_phi<kPaper, double>(d, data, update, advected));
+    if (is_measured) measure(voxel, next_[i], constants.near);
+  });
   phi_.swap(next_);
 }
 

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <new>
 
+#include "core/index_walk.h"
+
 namespace tidemark::solver {
 namespace {
 
@@ -148,20 +150,14 @@ bool CachedSpeed::takes_most(const VoxelBox& box, Index3 page) const {
 
 // One evaluation of a whole slice reads less than many of its parts.
 bool CachedSpeed::is_mostly_missing(const VoxelBox& box) const {
-  const Index3 first = box.first / kDefaultPageShape;
-  const Index3 last = (box.first + box.size - Index3(1)) / kDefaultPageShape;
   std::int64_t pages = 0;
   std::int64_t there = 0;
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        if (takes_most(box, {x, y, z})) return false;
-        ++pages;
-        if (ready({x, y, z}) != nullptr) ++there;
-      }
-    }
-  }
-  return 2 * there < pages;
+  const bool in_parts = all_pages(layout_, box.first, box.first + box.size, [&](Index3 page) {
+    ++pages;
+    if (ready(page) != nullptr) ++there;
+    return !takes_most(box, page);
+  });
+  return in_parts && 2 * there < pages;
 }
 
 void CachedSpeed::evaluate_pages(Index3 first, std::int64_t count) const {

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "core/index_walk.h"
+
 namespace tidemark::solver {
 
 namespace {
@@ -81,30 +83,19 @@ Constraints Constraints::over(const Constraints& other) const {
 }
 
 void Constraints::set(const std::function<bool(Index3)>& chosen, Index3 first, Index3 last, Constraint what) {
-  const Index3 first_page = first / kDefaultPageShape;
-  const Index3 last_page = last / kDefaultPageShape;
-  for (std::int64_t pz = first_page.z; pz <= last_page.z; ++pz) {
-    for (std::int64_t py = first_page.y; py <= last_page.y; ++py) {
-      for (std::int64_t px = first_page.x; px <= last_page.x; ++px) {
-        const std::int64_t number = layout_.page_number({px, py, pz});
-        Page values = copy_of(number);
-        const Index3 start = layout_.first_voxel(number);
-        const Index3 valid = layout_.valid_shape(number);
-        bool changed = false;
-        for (std::int64_t z = 0; z < valid.z; ++z) {
-          for (std::int64_t y = 0; y < valid.y; ++y) {
-            for (std::int64_t x = 0; x < valid.x; ++x) {
-              Constraint& value = values[static_cast<std::size_t>(x + 8 * (y + 8 * z))];
-              if (value == what || !chosen(start + Index3(x, y, z))) continue;
-              value = what;
-              changed = true;
-            }
-          }
-        }
-        if (changed) set_page(number, values);
-      }
-    }
-  }
+  for_each_page(layout_, first, last + Index3(1), [&](Index3 page) {
+    const std::int64_t number = layout_.page_number(page);
+    Page values = copy_of(number);
+    const Index3 start = layout_.first_voxel(number);
+    bool changed = false;
+    for_each_index(Index3(0), layout_.valid_shape(number), [&](Index3 local) {
+      Constraint& value = values[static_cast<std::size_t>(number_in(layout_.page_shape(), local))];
+      if (value == what || !chosen(start + local)) return;
+      value = what;
+      changed = true;
+    });
+    if (changed) set_page(number, values);
+  });
 }
 
 void Constraints::set(const Mask& mask, Constraint what) {

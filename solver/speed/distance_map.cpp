@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/index_walk.h"
+
 namespace tidemark::solver {
 namespace {
 
@@ -11,14 +13,9 @@ class DistanceMap final : public SpeedFunction {
   DistanceMap(Field distance, double within) : distance_(std::move(distance)), within_(within) {}
 
   void evaluate(const VoxelBox& box, double* share) const override {
-    for (std::int64_t z = 0; z < box.size.z; ++z) {
-      for (std::int64_t y = 0; y < box.size.y; ++y) {
-        for (std::int64_t x = 0; x < box.size.x; ++x) {
-          const auto distance = static_cast<double>(distance_.at(box.first + Index3(x, y, z)));
-          *share++ = std::clamp(-distance / within_, -1.0, 1.0);
-        }
-      }
-    }
+    for_each_index(box.first, box.first + box.size, [&](Index3 voxel) {
+      *share++ = std::clamp(-static_cast<double>(distance_.at(voxel)) / within_, -1.0, 1.0);
+    });
   }
 
  private:

@@ -4,6 +4,8 @@
 #include <bit>
 #include <glm/common.hpp>
 
+#include "core/index_walk.h"
+
 namespace tidemark::solver {
 namespace {
 
@@ -11,20 +13,10 @@ constexpr std::int64_t kSide = kDefaultPageShape.x;
 
 // Whether the pages of phi that hold the box are all inside or all outside; `side` is which.
 bool is_constant(const Field& phi, const VoxelBox& box, Field::Kind& side) {
-  const Index3 shape = phi.layout.page_shape();
-  const Index3 first = box.first / shape;
-  const Index3 last = (box.first + box.size - Index3(1)) / shape;
   const auto kind = [&](Index3 page) { return phi.pages.kind(phi.layout.page_number(page)); };
-  side = kind(first);
-  if (side == Field::Kind::stored) return false;
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        if (kind({x, y, z}) != side) return false;
-      }
-    }
-  }
-  return true;
+  side = kind(box.first / phi.layout.page_shape());
+  return side != Field::Kind::stored && all_pages(phi.layout, box.first, box.first + box.size,
+                                                  [&](Index3 page) { return kind(page) == side; });
 }
 
 // Bit i: the i-th of a row's voxels is inside. The row lies in one page of 8^3.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "core/index_walk.h"
+
 namespace tidemark::solver {
 namespace {
 
@@ -85,17 +87,11 @@ bool LocalRegionSpeed::is_as_before(const VoxelBox& box) const {
   const PageLayout& layout = inside_->layout();
   const VoxelBox around = grown(box, reach_);
   const Index3 last_voxel = layout.domain_size() - Index3(1);
-  const Index3 first = glm::clamp(around.first, Index3(0), last_voxel) / layout.page_shape();
-  const Index3 last =
-      glm::clamp(around.first + around.size - Index3(1), Index3(0), last_voxel) / layout.page_shape();
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        if (changed_[static_cast<std::size_t>(layout.page_number({x, y, z}))]) return false;
-      }
-    }
-  }
-  return true;
+  const Index3 first = glm::clamp(around.first, Index3(0), last_voxel);
+  const Index3 last = glm::clamp(around.first + around.size - Index3(1), Index3(0), last_voxel);
+  return all_pages(layout, first, last + Index3(1), [&](Index3 page) {
+    return !changed_[static_cast<std::size_t>(layout.page_number(page))];
+  });
 }
 
 }  // namespace tidemark::solver

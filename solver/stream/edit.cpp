@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/index_walk.h"
 #include "solver/stream/pages_around.h"
 #include "solver/stream/stream_executor.h"
 
@@ -132,29 +133,20 @@ StreamExecutor::PaintPlan StreamExecutor::plan_paint(const Sphere& sphere, Brush
                      static_cast<float>(band()),
                      constraints_.get()};
   PaintPlan plan;
-  const Index3 first = job.first_page();
-  const Index3 last = job.last_page();
-  for (std::int64_t z = first.z; z <= last.z; ++z) {
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        const std::int64_t page = layout.page_number({x, y, z});
-        const PhysicalPage physical = pages_.physical(page);
-        const std::vector<float> values = job.values({x, y, z});
-        if (all_equal(values, job.neutral())) continue;
-        if (is_static_page(physical)) {
-          const float constant = physical == kInsidePage ? job.band : -job.band;
-          if (constant != job.neutral()) continue;  // there is nothing to add or to erase
-          if (all_equal(values, -job.neutral())) {
-            plan.to_flip.push_back(page);
-            continue;
-          }
-          ++plan.to_allocate;
-        }
-        plan.to_draw.push_back(page);
-        plan.values.insert(plan.values.end(), values.begin(), values.end());
-      }
+  for_each_index(job.first_page(), job.last_page() + Index3(1), [&](Index3 coordinates) {
+    const std::int64_t page = layout.page_number(coordinates);
+    const PhysicalPage physical = pages_.physical(page);
+    const std::vector<float> values = job.values(coordinates);
+    if (all_equal(values, job.neutral())) return;
+    if (is_static_page(physical)) {
+      const float constant = physical == kInsidePage ? job.band : -job.band;
+      if (constant != job.neutral()) return;  // there is nothing to add or to erase
+      if (all_equal(values, -job.neutral())) return plan.to_flip.push_back(page);
+      ++plan.to_allocate;
     }
-  }
+    plan.to_draw.push_back(page);
+    plan.values.insert(plan.values.end(), values.begin(), values.end());
+  });
   return plan;
 }
 

@@ -1,7 +1,7 @@
 // A walk over the pages around a page.
 #pragma once
 
-#include "core/geometry.h"
+#include "core/index_walk.h"
 
 namespace tidemark::solver {
 
@@ -9,14 +9,7 @@ namespace tidemark::solver {
 // returns false.
 template <class Visit>
 bool all_within(Index3 reach, Index3 page, Visit visit) {
-  for (std::int64_t z = -reach.z; z <= reach.z; ++z) {
-    for (std::int64_t y = -reach.y; y <= reach.y; ++y) {
-      for (std::int64_t x = -reach.x; x <= reach.x; ++x) {
-        if (!visit(page + Index3(x, y, z))) return false;
-      }
-    }
-  }
-  return true;
+  return all_indices(page - reach, page + reach + Index3(1), visit);
 }
 
 }  // namespace tidemark::solver

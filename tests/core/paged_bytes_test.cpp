@@ -1,5 +1,6 @@
 // Pages of bytes that copies share: what is changed in one is changed in no other.
 #include "core/paged_bytes.h"
+#include "core/index_walk.h"
 
 #include <algorithm>
 #include <random>
@@ -18,15 +19,6 @@ constexpr std::int64_t kPageVoxels = 64 * 8 * 8;
 
 std::size_t offset(Index3 v) {
   return static_cast<std::size_t>(v.x + kSize.x * (v.y + kSize.y * v.z));
-}
-
-template <class Visit>
-void for_each_voxel(Index3 first, Index3 shape, const Visit& visit) {
-  for (std::int64_t k = first.z; k < first.z + shape.z; ++k) {
-    for (std::int64_t j = first.y; j < first.y + shape.y; ++j) {
-      for (std::int64_t i = first.x; i < first.x + shape.x; ++i) visit(Index3(i, j, k));
-    }
-  }
 }
 
 class Boxes {
@@ -66,11 +58,11 @@ class PagedBytesTest : public QObject {
         if (n % 2 == 0) {
           const auto value = static_cast<std::uint8_t>(boxes.number() % 4);
           bytes.fill(first, shape, value);
-          for_each_voxel(first, shape, [&](Index3 v) { voxels[offset(v)] = value; });
+          for_each_index(first, first + shape, [&](Index3 v) { voxels[offset(v)] = value; });
         } else {
           for (std::uint8_t& value : values) value = static_cast<std::uint8_t>(boxes.number() % 4);
           bytes.write(first, shape, values.data());
-          for_each_voxel(first, shape, [&](Index3 v) { voxels[offset(v)] = values[at++]; });
+          for_each_index(first, first + shape, [&](Index3 v) { voxels[offset(v)] = values[at++]; });
         }
         QVERIFY(bytes.voxels() == voxels);
         std::array<std::int64_t, 256> counts{};
@@ -80,7 +72,7 @@ class PagedBytesTest : public QObject {
         std::vector<std::uint8_t> there(static_cast<std::size_t>(part.x * part.y * part.z));
         bytes.read(low, part, there.data());
         at = 0;
-        for_each_voxel(low, part, [&](Index3 v) {
+        for_each_index(low, low + part, [&](Index3 v) {
           if (there[at++] != voxels[offset(v)] || bytes.at(v) != voxels[offset(v)]) QFAIL("another value");
         });
         const Index3 high = low + part - Index3(1);
@@ -104,7 +96,7 @@ class PagedBytesTest : public QObject {
     const PagedBytes bytes(kSize, voxels);
     for (const std::uint8_t value : {1, 127, 128, 255}) {
       Region expected(VoxelRange{Index3(0), kSize});
-      for_each_voxel(Index3(0), kSize, [&](Index3 v) {
+      for_each_index(Index3(0), kSize, [&](Index3 v) {
         if (voxels[offset(v)] == value) expected.add(v);
       });
       const Region found(bytes, value);

@@ -6,6 +6,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/index_walk.h"
 #include "solver/speed/cached_speed.h"
 
 namespace tidemark::test {
@@ -35,11 +36,7 @@ class FormulaSpeed : public solver::SpeedFunction {
  private:
   template <class Visit>
   static void for_each_voxel(const solver::VoxelBox& box, Visit visit) {
-    for (std::int64_t z = 0; z < box.size.z; ++z) {
-      for (std::int64_t y = 0; y < box.size.y; ++y) {
-        for (std::int64_t x = 0; x < box.size.x; ++x) visit(glm::dvec3(box.first + Index3(x, y, z)));
-      }
-    }
+    for_each_index(box.first, box.first + box.size, [&](Index3 voxel) { visit(glm::dvec3(voxel)); });
   }
 
   Speed speed_;
