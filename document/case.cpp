@@ -38,12 +38,25 @@ Status Case::smooth_source(double sigma_mm) {
   return level_set_->smooth_source(sigma_mm);
 }
 
-Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take) {
+Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take, const std::string& another) {
   if (!level_set_->begun()) return fail(ErrorKind::usage, "there is no surface to accept");
   TIDEMARK_TRY(level_set_->end_run());
   const auto phi = level_set_->checkpoint();
   if (!phi) return pass_on(phi);
-  return labels_.accept(solver::inside_region(**phi), label, take);
+  const Region inside = solver::inside_region(**phi);
+  if (inside.empty()) return fail(ErrorKind::usage, "the surface has no inside: there is nothing to accept");
+  if (label == 0) return labels_.accept_as(another, inside, take);
+  const Label* const chosen = labels_.find(label);
+  if (chosen != nullptr && !another.empty()) {
+    const Region there = labels_.region(label);
+    if (!there.empty() && common_count(there, inside) == 0) {
+      std::string kept = chosen->name;
+      auto accepted = labels_.accept_as(another, inside, take);
+      if (accepted) accepted->kept = std::move(kept);
+      return accepted;
+    }
+  }
+  return labels_.accept(inside, label, take);
 }
 
 Status Case::begin_from_label(std::uint8_t label, std::optional<double> within_mm, int levels) {

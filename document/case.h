@@ -42,7 +42,10 @@ class Case {
   [[nodiscard]] double smoothed_mm() const { return level_set_->smoothed_mm(); }
 
   // Changes of labels; each is one entry of the history.
-  Result<Acceptance> accept_surface(std::uint8_t label, Take take);
+  // The surface's inside becomes the label; with label 0, a new one with the name `another`. Where the label
+  // has voxels and none of them is inside, the surface is another structure: it becomes a new label with that
+  // name, unless that is empty. Fails (ErrorKind::usage) without an inside.
+  Result<Acceptance> accept_surface(std::uint8_t label, Take take, const std::string& another = {});
   // With `within_mm` the label is refined: the surface stays that near to it.
   Status begin_from_label(std::uint8_t label, std::optional<double> within_mm = std::nullopt, int levels = 1);
 

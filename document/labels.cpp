@@ -161,6 +161,7 @@ void Labels::give_voxels(const Region& region, std::uint8_t after, const std::ar
         acceptance.left += end - at;
       } else {
         if (after != 0) acceptance.taken += end - at;
+        if (after != 0 && before != after) acceptance.added += end - at;
         if (after != 0 && before != 0 && before != after) acceptance.from_others += end - at;
         if (before != after) runs.push_back({geometry_.offset(voxel) + at, end - at, before, after});
       }
@@ -202,6 +203,7 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
     if (giving == Giving::replaces) {
       Acceptance cleared;
       const Region beside = difference(Region(voxels, wanted.label), wanted.region);
+      acceptance.given_up += beside.count();
       give_voxels(beside, 0, free, cleared, runs, voxels);
     }
     give_voxels(wanted.region, wanted.label, free, acceptance, runs, voxels);
@@ -214,6 +216,10 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
 Result<Acceptance> Labels::accept(const Region& region, std::uint8_t id, Take take, bool replace) {
   if (find(id) == nullptr) return fail(ErrorKind::usage, "there is no label {}", id);
   return give(ChangeKind::accept, {{id, {}, region}}, take, replace ? Giving::replaces : Giving::adds);
+}
+
+Result<Acceptance> Labels::accept_as(const std::string& name, const Region& region, Take take) {
+  return give(ChangeKind::accept, {{0, name, region}}, take, Giving::adds);
 }
 
 Result<Acceptance> Labels::finish(const std::vector<LabelRegion>& regions, Take take) {

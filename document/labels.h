@@ -42,8 +42,11 @@ struct LabelRegion {
 // The outcome of accepting regions, in voxels of them.
 struct Acceptance {
   std::string label;             // the name, or several
+  std::string kept;              // the label that was chosen and stays as it was; mostly none
   std::int64_t taken = 0;        // of all that it has now
+  std::int64_t added = 0;        // of `taken`: it had not before
   std::int64_t from_others = 0;  // of `taken`: had another label before
+  std::int64_t given_up = 0;     // it had before, and has no more
   std::int64_t left = 0;         // stayed with other labels
 };
 
@@ -69,6 +72,8 @@ class Labels {
   // (ErrorKind::usage) when the label is locked or unknown, or the region reaches beyond the grid.
   Result<Acceptance> accept(const Region& region, std::uint8_t id, Take take = Take::free_voxels,
                             bool replace = true);
+  // The same for a new label: one entry of the history. Fails where there is no room for it.
+  Result<Acceptance> accept_as(const std::string& name, const Region& region, Take take = Take::free_voxels);
   // The labels become those regions, one after the other: one entry of the history. Fails as accept() does,
   // and where there is no room for a new label, changing nothing.
   Result<Acceptance> finish(const std::vector<LabelRegion>& regions, Take take = Take::free_voxels);

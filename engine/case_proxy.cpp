@@ -264,8 +264,15 @@ void CaseProxy::begin(const document::Start& start) {
 }
 
 void CaseProxy::paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture) {
-  post([sphere, brush, gesture](CaseRunner& runner, const Progress&) {
-    return runner.report_edit(runner.document().level_set().paint(sphere, brush, gesture));
+  post([sphere, brush, gesture](CaseRunner& runner, const Progress&) -> Status {
+    document::LevelSet& level_set = runner.document().level_set();
+    if (!level_set.begun()) {
+      // Beside the volume there is nothing that a surface could begin with.
+      document::Start only;
+      only.seeds.push_back(sphere);
+      TIDEMARK_TRY(document::check_spheres(only, runner.document().volume()->geometry));
+    }
+    return runner.report_edit(level_set.paint(sphere, brush, gesture));
   });
 }
 

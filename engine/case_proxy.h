@@ -143,8 +143,10 @@ class CaseProxy : public QObject {
   void import_labels(std::shared_ptr<const imaging::Segments> segments);  // as new labels
   // The one that is chosen, else the newest. Null: there is none.
   [[nodiscard]] const document::Label* chosen_label() const;
-  // The surface's inside becomes the label, or a new one; CaseState::acceptance has the outcome.
-  void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels);
+  // The surface's inside becomes the label, or a new one, as of document::Case; CaseState::acceptance has the
+  // outcome.
+  void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels,
+                      const QString& another = {});
   void accept_surface_as(const QString& name, document::Take take = document::Take::free_voxels);
   // The labels become those regions. As a tool makes them: see label_finisher().
   void finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions, document::Take take);

@@ -42,18 +42,14 @@ void CaseProxy::import_labels(std::shared_ptr<const imaging::Segments> segments)
   });
 }
 
-void CaseProxy::accept_surface(std::uint8_t label, document::Take take) {
-  post([=](CaseRunner& runner, const Progress&) {
-    return runner.report_acceptance(runner.document().accept_surface(label, take));
+void CaseProxy::accept_surface(std::uint8_t label, document::Take take, const QString& another) {
+  post([=, name = another.toStdString()](CaseRunner& runner, const Progress&) {
+    return runner.report_acceptance(runner.document().accept_surface(label, take, name));
   });
 }
 
 void CaseProxy::accept_surface_as(const QString& name, document::Take take) {
-  post([name = name.toStdString(), take](CaseRunner& runner, const Progress&) -> Status {
-    const auto id = runner.document().labels().add(name);
-    if (!id) return pass_on(id);
-    return runner.report_acceptance(runner.document().accept_surface(*id, take));
-  });
+  accept_surface(0, take, name);
 }
 
 void CaseProxy::finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions,

@@ -272,6 +272,62 @@ class LabelsTest : public QObject {
     QCOMPARE(all[0].voxels, std::int64_t{0});
   }
 
+  void a_surface_elsewhere_becomes_a_label_of_its_own() {
+    const auto document = begun_case();
+    const Geometry& grid = document->volume()->geometry;
+    const double spacing = grid.spacing_mm.x;
+    const auto begin_at = [&](Index3 voxel) {
+      document::Start start;
+      start.seeds.push_back({grid.to_patient(glm::dvec3(voxel)), 2.5 * spacing});
+      QCOMPARE(failure(document->level_set().begin(start)), QString());
+    };
+    const Index3 far = grid.size - Index3(4);
+    begin_at({4, 4, 4});
+    const std::uint8_t liver = document->labels().add("Liver").value();
+    const auto first = document->accept_surface(liver, document::Take::free_voxels, "Label 2");
+    QVERIFY(first && first->kept.empty());
+    QVERIFY(first->added > 20 && first->added == first->taken && first->given_up == 0);
+    const Mask before = document->labels().mask(liver);
+    // The same once more: nothing is new.
+    QCOMPARE(document->accept_surface(liver, document::Take::free_voxels, "Label 2")->added, std::int64_t{0});
+
+    begin_at(far);
+    const auto second = document->accept_surface(liver, document::Take::free_voxels, "Label 2");
+    QVERIFY(second);
+    QCOMPARE(second->label, std::string("Label 2"));
+    QCOMPARE(second->kept, std::string("Liver"));
+    QCOMPARE(document->labels().list().size(), std::size_t{2});
+    QVERIFY(document->labels().mask(liver).voxels == before.voxels);
+    QCOMPARE(document->labels().mask(document->labels().list().back().id).count(), second->added);
+    QCOMPARE(failure(document->undo()), QString());  // both at once
+    QCOMPARE(document->labels().list().size(), std::size_t{1});
+    // Who names no other label means this one, whatever it had.
+    const auto replaced = document->accept_surface(liver, document::Take::free_voxels);
+    QVERIFY(replaced && replaced->added == second->added);
+    QCOMPARE(replaced->given_up, before.count());
+    // A part of it in common: the surface was moved on.
+    begin_at(far - Index3(1));
+    QVERIFY(document->accept_surface(liver, document::Take::free_voxels, "Label 2")->kept.empty());
+    QCOMPARE(document->labels().list().size(), std::size_t{1});
+  }
+
+  void a_surface_without_an_inside_is_not_accepted() {
+    const auto document = begun_case();
+    const Geometry& grid = document->volume()->geometry;
+    const std::uint8_t liver = document->labels().add("Liver").value();
+    QVERIFY(document->accept_surface(liver, document::Take::free_voxels));
+    const Mask before = document->labels().mask(liver);
+    const solver::Sphere all{grid.to_patient(0.5 * glm::dvec3(grid.size)), 1000.0};
+    QCOMPARE(failure(document->level_set().paint(all, solver::Brush::erase)), QString());
+    for (const std::uint8_t label : {liver, std::uint8_t{0}}) {
+      const auto accepted = document->accept_surface(label, document::Take::free_voxels, "Label 2");
+      QVERIFY(!accepted && accepted.error().kind == ErrorKind::usage);
+      QVERIFY(QString::fromStdString(accepted.error().message).contains("no inside"));
+    }
+    QVERIFY(document->labels().mask(liver).voxels == before.voxels);
+    QCOMPARE(document->labels().list().size(), std::size_t{1});
+  }
+
   void a_surface_becomes_a_label_and_a_label_a_surface() {
     const auto document = begun_case();
     run(document->level_set(), 12);

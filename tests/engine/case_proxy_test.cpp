@@ -104,6 +104,23 @@ class CaseProxyTest : public QObject {
     QCOMPARE(fixture.proxy.state().outcome, document::Outcome::seeded_outside);
   }
 
+  void a_sphere_beside_the_volume_begins_nothing() {
+    BallCase fixture;
+    fixture.proxy.paint({fixture.middle() + glm::dvec3(500.0, 0.0, 0.0), 4.0}, solver::Brush::add,
+                        engine::CaseProxy::new_gesture());
+    fixture.wait_until_idle();
+    QCOMPARE(fixture.failures.size(), qsizetype{1});
+    QVERIFY2(fixture.failures[0].contains("not in the volume"), qPrintable(fixture.failures[0]));
+    QVERIFY(!fixture.proxy.state().begun);
+    QVERIFY(fixture.proxy.state().undo_text.isEmpty());
+    fixture.begin();
+    // A stroke may leave the volume.
+    fixture.proxy.paint({fixture.middle() + glm::dvec3(500.0, 0.0, 0.0), 4.0}, solver::Brush::add,
+                        engine::CaseProxy::new_gesture());
+    fixture.wait_until_idle();
+    QCOMPARE(fixture.failures.size(), qsizetype{1});
+  }
+
   void pictures_follow_the_surface_and_end_with_its_last_step_data() {
     QTest::addColumn<QByteArray>("executor");
     QTest::addColumn<QByteArray>("renderer");

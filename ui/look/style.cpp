@@ -41,6 +41,9 @@ QIcon Style::standardIcon(StandardPixmap which, const QStyleOption* option, cons
     case SP_TitleBarNormalButton:
     case SP_TitleBarMaxButton:
       return icon(u"maximise");
+    case SP_ToolBarHorizontalExtensionButton:
+    case SP_ToolBarVerticalExtensionButton:
+      return icon(u"more");
     default:
       return QProxyStyle::standardIcon(which, option, widget);
   }

@@ -7,8 +7,8 @@
 
 namespace tidemark::ui {
 
-// Qt gives and takes room in the order of docks: in a window that became small and large again, the first
-// dock has most of it.
+// Qt gives and takes room in the order of docks: in a window that became small and large again, or whose
+// style changes after its docks were restored, the first dock has most of it.
 class DockShares : public QObject {
   Q_OBJECT
 
@@ -32,6 +32,7 @@ class DockShares : public QObject {
   Shares shares_;
   QTimer settling_;
   QSize settled_;           // of the window, at last
+  bool restyled_ = false;   // since it settled
   bool restoring_ = false;  // what docks become is no wish of the user
 };
 

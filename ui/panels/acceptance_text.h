@@ -11,8 +11,14 @@
 namespace tidemark::ui {
 
 inline QString acceptance_text(const document::Acceptance& acceptance) {
-  QStringList sentences{tr("%1 took %2 voxels.", nullptr, form_of(acceptance.taken))
-                            .arg(QString::fromStdString(acceptance.label), count_text(acceptance.taken))};
+  QStringList sentences{tr("%1 took %2 voxels.", nullptr, form_of(acceptance.added))
+                            .arg(QString::fromStdString(acceptance.label), count_text(acceptance.added))};
+  if (acceptance.given_up > 0)
+    sentences << tr("It gave up %1 voxels.", nullptr, form_of(acceptance.given_up))
+                     .arg(count_text(acceptance.given_up));
+  if (!acceptance.kept.empty())
+    sentences << tr("It is a label of its own, as %1 has no voxel in common with the surface.")
+                     .arg(QString::fromStdString(acceptance.kept));
   if (acceptance.from_others > 0)
     sentences << tr("%1 of them had another label.", nullptr, form_of(acceptance.from_others))
                      .arg(count_text(acceptance.from_others));

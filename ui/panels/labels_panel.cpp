@@ -178,12 +178,9 @@ void LabelsPanel::accept_surface() {
   if (!proxy()) return;
   const document::Take take =
       take_all_->isChecked() ? document::Take::others_too : document::Take::free_voxels;
-  if (const document::Label* label = chosen()) {
-    proxy()->accept_surface(label->id, take);
-  } else {
-    choose_new_ = true;
-    proxy()->accept_surface_as(new_name(), take);
-  }
+  const document::Label* const label = chosen();
+  if (!label) choose_new_ = true;
+  proxy()->accept_surface(label ? label->id : std::uint8_t{0}, take, new_name());
 }
 
 void LabelsPanel::show_acceptance() {
@@ -233,8 +230,9 @@ void LabelsPanel::refresh() {
   const int rows = model_->rowCount();
   if (rows != before) {
     // A reset drops the selection.
+    const bool own = state.acceptance && !state.acceptance->kept.empty();
     int row = rows - 1;
-    for (int other = 0; other < rows && !(choose_new_ && rows > before); ++other) {
+    for (int other = 0; other < rows && !((choose_new_ || own) && rows > before); ++other) {
       if (model_->label(other)->id == was) row = other;
     }
     if (row >= 0) table_->selectRow(row);
@@ -257,7 +255,8 @@ void LabelsPanel::show_buttons() {
   accept_->setToolTip(!begun   ? tr("There is no surface yet.")
                       : locked ? tr("The chosen label is locked.")
                       : !label ? tr("The surface's inside becomes a new label.")
-                               : tr("The surface's inside becomes the chosen label."));
+                               : tr("The surface's inside becomes the chosen label. Where the two have no "
+                                    "voxel in common it becomes a label of its own."));
   begin_->setEnabled(label != nullptr);
   refine_->setEnabled(label != nullptr);
   compare_->setEnabled(label != nullptr && begun);

@@ -346,9 +346,8 @@ void SliceViewWidget::paint_marks(QPainter& painter, const SliceScreen& on_scree
   if (settings().tool != engine::Tool::examples || !underMouse()) return;
   const QString missing = missing_examples(now.strokes.get());
   if (missing.isEmpty()) return;
-  constexpr double kHeight = 20.0;
-  const QRectF where(0.0, 0.75 * height(), width(), kHeight);
-  paint_text(painter, where, Qt::AlignHCenter | Qt::AlignVCenter, missing);
+  const QRectF where(0.05 * width(), 0.7 * height(), 0.9 * width(), 0.15 * height());
+  paint_text(painter, where, Qt::AlignHCenter | Qt::AlignVCenter | Qt::TextWordWrap, missing);
 }
 
 // Undo, or a session, has brought others.

@@ -4,6 +4,7 @@
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QPainter>
+#include <QRegularExpression>
 #include <QSignalBlocker>
 #include <QToolTip>
 #include <cmath>
@@ -42,7 +43,7 @@ std::optional<QString> in_ascii(const QString& typed) {
       plain += u'.';
     } else if (c == u'-' || c == kMinus) {
       plain += u'-';
-    } else if (c == u'+' || is_group_separator(c)) {
+    } else if (c == u'+' || c == u'e' || c == u'E' || is_group_separator(c)) {
       plain += c;
     } else {
       return std::nullopt;
@@ -79,15 +80,26 @@ QString NumberBox::typed_in(const QString& text) const {
   return typed.trimmed().toString();
 }
 
+// A unit that is typed, as far as it is.
+QString NumberBox::without_unit(const QString& typed) const {
+  qsizetype letters = typed.size();
+  while (letters > 0 && typed[letters - 1].isLetter()) --letters;
+  const QString unit = suffix().trimmed();
+  const QString end = typed.mid(letters);
+  return !end.isEmpty() && unit.startsWith(end, Qt::CaseInsensitive) ? typed.left(letters).trimmed() : typed;
+}
+
 // More digits behind it take a number away from zero only.
 bool NumberBox::can_become_larger_only(double value) const {
   return (value >= 0.0 && value < minimum()) || (value <= 0.0 && value > maximum());
 }
 
 NumberBox::Typed NumberBox::read(const QString& typed) const {
-  const auto plain = in_ascii(typed);
+  const auto plain = in_ascii(without_unit(typed));
   if (!plain) return {Reading::no_number};
   if (plain->isEmpty() || *plain == u"-" || *plain == u"+" || *plain == u"." || *plain == u"-.") return {};
+  static const QRegularExpression begun_exponent(QStringLiteral("^[-+]?[0-9.]+[eE][-+]?$"));
+  if (begun_exponent.match(*plain).hasMatch()) return {};
   bool is_number = false;
   const double value = QLocale::c().toDouble(*plain, &is_number);
   if (!is_number || !std::isfinite(value)) return {Reading::no_number};
@@ -134,9 +146,7 @@ double NumberBox::valueFromText(const QString& text) const {
 }
 
 QValidator::State NumberBox::validate(QString& text, int& /*position*/) const {
-  const QString typed = typed_in(text);
-  if (!in_ascii(typed)) return QValidator::Invalid;  // a letter is not typed at all
-  return read(typed).reading == Reading::number ? QValidator::Acceptable : QValidator::Intermediate;
+  return read(typed_in(text)).reading == Reading::number ? QValidator::Acceptable : QValidator::Intermediate;
 }
 
 // Qt asks for it when what was typed to the end cannot be taken.
@@ -148,7 +158,18 @@ void NumberBox::fixup(QString& text) const {
     QToolTip::showText(mapToGlobal(rect().bottomLeft()), problem(), const_cast<NumberBox*>(this));
 }
 
+void NumberBox::keyPressEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Escape || !is_being_typed()) return QDoubleSpinBox::keyPressEvent(event);
+  show_value(value());
+  selectAll();
+}
+
 bool NumberBox::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && is_being_typed() &&
+      static_cast<const QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+    event->accept();
+    return true;
+  }
   if (event->type() == QEvent::ShortcutOverride && !is_being_typed() &&
       is_letter(*static_cast<const QKeyEvent*>(event))) {
     event->ignore();

@@ -6,8 +6,9 @@
 namespace tidemark::ui {
 
 // A point and a comma both stand before the digits behind the point, whatever the user's language; digits are
-// not grouped. What is no number, or none that the box can hold as it was typed, changes nothing: it stays,
-// marked, until something else is typed. While nothing is typed a letter is the window's, as in its views.
+// not grouped. An exponent and the box's own unit may follow. What is no number, or none that the box can
+// hold as it was typed, changes nothing: it stays, marked, until something else is typed or Escape brings the
+// value back. While nothing is typed a letter is the window's, as in its views.
 class NumberBox : public QDoubleSpinBox {
   Q_OBJECT
  public:
@@ -27,6 +28,7 @@ class NumberBox : public QDoubleSpinBox {
 
  protected:
   bool event(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 
  private:
@@ -38,6 +40,7 @@ class NumberBox : public QDoubleSpinBox {
   [[nodiscard]] Typed read(const QString& typed) const;
   [[nodiscard]] bool is_being_typed() const;
   [[nodiscard]] QString typed_in(const QString& text) const;  // without prefix and suffix
+  [[nodiscard]] QString without_unit(const QString& typed) const;
   [[nodiscard]] bool can_become_larger_only(double value) const;
 
   // What was typed to the end and not taken, and the value that holds on instead.

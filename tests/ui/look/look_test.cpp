@@ -33,7 +33,7 @@ const QStringList kNames =
         "link lock "
         "unlock eye eye-off add remove duplicate colour camera reset-view maximise full-screen settings "
         "about warning "
-        "handbook info target curve label statistics keyboard theme-light theme-dark lockstep")
+        "handbook info target curve label statistics keyboard theme-light theme-dark lockstep more")
         .split(QLatin1Char(' '));
 
 QImage drawn(const QString& name, int side, QIcon::Mode mode = QIcon::Normal) {
@@ -290,7 +290,8 @@ class LookTest : public QObject {
     const QRect close = style.subControlRect(QStyle::CC_TitleBar, &title, QStyle::SC_TitleBarCloseButton);
     QVERIFY(brightest_of(picture.copy(close)) > 200);
 
-    for (const auto which : {QStyle::SP_TitleBarCloseButton, QStyle::SP_TitleBarNormalButton}) {
+    for (const auto which : {QStyle::SP_TitleBarCloseButton, QStyle::SP_TitleBarNormalButton,
+                             QStyle::SP_ToolBarHorizontalExtensionButton}) {
       const QImage button = style.standardIcon(which).pixmap(48).toImage();
       QVERIFY(distance_to(button, QApplication::palette().color(QPalette::WindowText)) <= 2);
     }

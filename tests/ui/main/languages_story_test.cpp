@@ -76,6 +76,37 @@ class LanguagesStoryTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void views_keep_their_room_when_the_theme_changes_in_another_language() {
+    DesktopIn desktop("en");
+    QVERIFY(desktop.open_phantom("sphere"));
+    desktop.begin(10.0);
+    desktop.speak("Deutsch");
+    const auto sizes = [&] {
+      QList<QSize> sizes;
+      for (const ui::PictureView* view : desktop.window().active_case()->views()) sizes << view->size();
+      return sizes;
+    };
+    desktop.press(Qt::Key_4, Qt::ControlModifier);
+    desktop.wait_until_idle();
+    QTest::qWait(500);
+    const QList<QSize> before = sizes();
+    for (QAction* theme : desktop.window().actions().themes->actions()) {
+      theme->trigger();
+      QTest::qWait(500);
+      const QList<QSize> after = sizes();
+      QCOMPARE(after.size(), before.size());
+      for (qsizetype i = 0; i < after.size(); ++i) {
+        const QSize by = after[i] - before[i];
+        QVERIFY2(std::abs(by.width()) < 40 && std::abs(by.height()) < 40,
+                 qPrintable(QStringLiteral("%1 x %2, was %3 x %4")
+                                .arg(after[i].width())
+                                .arg(after[i].height())
+                                .arg(before[i].width())
+                                .arg(before[i].height())));
+      }
+    }
+  }
+
   void another_language_shows_the_same_cases() {
     DesktopIn desktop("en");
     QVERIFY(desktop.open_phantom("sphere"));

@@ -21,6 +21,7 @@ class TwoCasesStoryTest : public QObject {
   void a_bars_play_is_of_its_own_case();
   void six_views_follow_two_surfaces_and_phi_stays_where_it_is();
   void linked_cases_are_looked_at_together();
+  void a_linked_study_that_lies_elsewhere_stays_where_it_is();
   void cases_in_lock_step_rest_at_the_same_step_data();
   void cases_in_lock_step_rest_at_the_same_step();
   void one_step_in_lock_step_is_one_of_each();
@@ -188,6 +189,32 @@ void TwoCasesStoryTest::six_views_follow_two_surfaces_and_phi_stays_where_it_is(
     QCOMPARE(traffic.pages_uploaded, 0);
   }
   QCOMPARE(desktop.engine().contexts_made(), 1);
+}
+
+void TwoCasesStoryTest::a_linked_study_that_lies_elsewhere_stays_where_it_is() {
+  Desktop desktop(story_executor(), {1200, 760});
+  const auto cases = open_two(desktop, "tumour", "sphere");
+  engine::Display& large = cases[0]->proxy().display();
+  engine::Display& small = cases[1]->proxy().display();
+  desktop.press(Qt::Key_L);
+  const glm::dvec3 before = small.settings().cursor_mm;
+  const Geometry& grid = cases[0]->proxy().volume().geometry;
+  const glm::dvec3 corner = grid.to_patient(glm::dvec3(grid.size - Index3(3)));
+  const glm::dvec3 common = cases[1]->proxy().volume().geometry.to_patient({4.0, 4.0, 4.0});
+  const auto look_at = [&](const glm::dvec3& place) {
+    large.change([&](engine::DisplaySettings& s) {
+      s.cursor_mm = s.slice_centre_mm = place;
+      s.camera.focus_mm = place;
+    });
+  };
+  look_at(corner);
+  QCOMPARE(small.settings().cursor_mm, before);
+  QVERIFY(small.settings().slice_centre_mm != corner);
+  QVERIFY(small.settings().camera.focus_mm != std::optional(corner));
+  look_at(common);
+  QCOMPARE(small.settings().cursor_mm, common);
+  QCOMPARE(small.settings().slice_centre_mm, common);
+  QCOMPARE(small.settings().camera.focus_mm, std::optional(common));
 }
 
 void TwoCasesStoryTest::linked_cases_are_looked_at_together() {

@@ -50,6 +50,24 @@ class LabelsPanelTest : public QObject {
     QVERIFY(shown != QLocale().toString(0.0, 'f', 1));
   }
 
+  // The label that was accepted stays chosen, and the next structure must not take its place.
+  void the_next_structure_does_not_replace_the_label_that_is_chosen() {
+    the_case_->begin(5.0);
+    click(tr("Accept surface into label"));
+    const std::int64_t first = the_case_->state().label_statistics[0].voxels;
+    document::Start start;
+    start.seeds.push_back({the_case_->middle() + glm::dvec3(11.0, 0.0, 0.0), 4.0});
+    the_case_->proxy->begin(start);
+    the_case_->wait_until_idle();
+    QCOMPARE(chosen_row(), 0);
+    click(tr("Accept surface into label"));
+    QCOMPARE(the_case_->state().labels.size(), std::size_t{2});
+    QCOMPARE(the_case_->state().label_statistics[0].voxels, first);
+    QVERIFY(the_case_->state().label_statistics[1].voxels > 100);
+    QCOMPARE(chosen_row(), 1);
+    QVERIFY(says("Label 1 has no voxel in common"));
+  }
+
   void voxels_of_other_labels_are_taken_only_when_it_is_asked_for() {
     add();
     the_case_->begin(8.0);

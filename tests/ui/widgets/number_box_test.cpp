@@ -165,13 +165,59 @@ class NumberBoxTest : public QObject {
     connect(shortcut, &QShortcut::activated, this, [&played] { ++played; });
     QApplication::setActiveWindow(window_.get());
     type("12,5");
-    QTest::keyClick(box_, Qt::Key_P);  // as the end of a unit
+    QTest::keyClicks(box_, "p");  // no letter is lost: what stands there is no number then
     QCOMPARE(played, 0);
+    QVERIFY(is_marked());
+    QTest::keyClick(box_, Qt::Key_Backspace);
     QTest::keyClick(box_, Qt::Key_Return);
     QTest::keyClick(box_, Qt::Key_P);
     QCOMPARE(played, 1);
     QCOMPARE(box_->value(), 12.5);
     QVERIFY(!is_marked());
+  }
+
+  void a_unit_and_an_exponent_may_follow() {
+    make("de_DE");
+    for (const char* typed : {"12,5HU", "12,5 hu", "12,5h", "1,25e1", "125E-1"}) {
+      type(typed);
+      QVERIFY2(!is_marked(), typed);
+      QTest::keyClick(box_, Qt::Key_Return);
+      QCOMPARE(box_->value(), 12.5);
+      box_->setValue(7.0);
+    }
+    type("1e");
+    QVERIFY(!is_marked());  // not finished
+    leave();
+    QCOMPARE(box_->cleanText(), QStringLiteral("7,000"));
+    for (const char* typed : {"1e9", "12mm", "1e3,5", "abc1"}) {
+      type(typed);
+      QTest::keyClick(box_, Qt::Key_Return);
+      QVERIFY2(is_marked(), typed);
+      QCOMPARE(box_->value(), 7.0);
+    }
+  }
+
+  void escape_brings_the_value_back() {
+    make("de_DE");
+    for (const char* typed : {"12", "50000", "1 000"}) {
+      const QSignalSpy changes(box_, &QDoubleSpinBox::valueChanged);
+      type(typed);
+      QTest::keyClick(box_, Qt::Key_Escape);
+      QCOMPARE(box_->cleanText(), QStringLiteral("7,000"));
+      QVERIFY(!is_marked());
+      type(typed);
+      QTest::keyClick(box_, Qt::Key_Escape);
+      leave();
+      QCOMPARE(box_->value(), 7.0);
+      QCOMPARE(changes.count(), 0);
+    }
+    // What was refused, too.
+    type("50000");
+    QTest::keyClick(box_, Qt::Key_Return);
+    QVERIFY(is_marked());
+    QTest::keyClick(box_, Qt::Key_Escape);
+    QVERIFY(!is_marked());
+    QCOMPARE(box_->cleanText(), QStringLiteral("7,000"));
   }
 
   void a_whole_number_has_nothing_behind_the_point() {
