@@ -330,8 +330,8 @@ void Actions::follow_evolution(const engine::CaseState& state) {
   play->setChecked(state.playing);
   play->setIcon(icon(state.playing ? u"pause" : u"play"));
   play->setText(state.playing ? tr("&Pause") : tr("&Play"));
-  for (QAction* action :
-       {step, restart, fastest_place, compare_schemes, export_mesh, export_recipe, export_level_set})
+  for (QAction* action : {step, restart, fastest_place, compare_schemes, export_mesh, export_film,
+                          export_recipe, export_level_set})
     action->setEnabled(state.begun);
   for (QAction* action : {export_segmentation, export_structure_set, export_label_meshes, send_result})
     action->setEnabled(state.begun || !state.labels.empty());

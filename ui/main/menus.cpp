@@ -56,6 +56,8 @@ void make_view_menu(MainWindow& window, Actions& actions, PanelDocks& panels) {
       if (CaseWindow* active = window.active_case()) active->add_view(kind);
     });
   }
+  QObject::connect(view, &QMenu::aboutToShow, more,
+                   [&window, more] { more->setEnabled(window.active_case() != nullptr); });
   view->addSeparator();
   view->addActions({actions.reset_view, actions.clip, actions.swipe, actions.patient_text});
   view->addSeparator();

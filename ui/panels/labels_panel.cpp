@@ -245,7 +245,7 @@ void LabelsPanel::refresh() {
 
 void LabelsPanel::show_buttons() {
   const document::Label* label = chosen();
-  remove_->setEnabled(label != nullptr);
+  remove_->setEnabled(label && !label->locked);
   tools_->set_labels(all_chosen());
   painting_->set_label(label ? label->id : std::uint8_t{0});
   meaning_->show_label(label);

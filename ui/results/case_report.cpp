@@ -190,7 +190,9 @@ Result<QString> report_page(const ReportSource& source, const document::SessionC
       rows << QStringList{name.toHtmlEscaped(), value.toHtmlEscaped()};
     page += heading(tr("How the surface was made")) + table({}, rows);
   }
-  if (!source.pictures.empty()) page += heading(tr("Pictures")) + pictures(source.pictures);
+  if (!source.pictures.empty())
+    page += QStringLiteral("<h2 style='page-break-before:always'>%1</h2>").arg(tr("Pictures")) +
+            pictures(source.pictures);
   page +=
       QStringLiteral("<p>%1</p>")
           .arg(

@@ -1,5 +1,6 @@
 #include "ui/panels/labels_panel.h"
 
+#include <QAbstractButton>
 #include <QCheckBox>
 #include <QColorDialog>
 #include <QDoubleSpinBox>
@@ -160,6 +161,7 @@ class LabelsPanelTest : public QObject {
     QVERIFY(!the_case_->state().labels.front().visible);
     QVERIFY(the_case_->state().labels.front().locked);
     QVERIFY(!button<QPushButton>(*panel_, tr("Accept surface into label"))->isEnabled());
+    QVERIFY(!button<QAbstractButton>(*panel_, tr("Remove"))->isEnabled());
   }
 
   void two_edits_before_the_engine_answers_are_both_kept() {
