@@ -33,6 +33,11 @@ void outline(const QStyleOption& option, bool is_round, QPainter& painter) {
 
 Style::Style() : QProxyStyle(QStringLiteral("Fusion")) {}
 
+int Style::pixelMetric(PixelMetric which, const QStyleOption* option, const QWidget* widget) const {
+  constexpr int kExtension = 22;  // of a tool bar, in pixels: 12 leave its arrow five
+  return which == PM_ToolBarExtensionExtent ? kExtension : QProxyStyle::pixelMetric(which, option, widget);
+}
+
 QIcon Style::standardIcon(StandardPixmap which, const QStyleOption* option, const QWidget* widget) const {
   switch (which) {
     case SP_TitleBarCloseButton:

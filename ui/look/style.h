@@ -11,6 +11,9 @@ class Style : public QProxyStyle {
   Style();
 
   // Buttons in the titles of docks: our icons.
+  // Room for the arrow of a tool bar that is too narrow for its tools.
+  int pixelMetric(PixelMetric which, const QStyleOption* option = nullptr,
+                  const QWidget* widget = nullptr) const override;
   QIcon standardIcon(StandardPixmap which, const QStyleOption* option = nullptr,
                      const QWidget* widget = nullptr) const override;
   // Names of panels are written out beside them; where they have no room, one scrolls.

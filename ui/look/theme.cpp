@@ -127,6 +127,7 @@ QToolBar { border: none; padding: 2px 4px; spacing: 1px; }
 QToolBar::separator:horizontal { background: palette(mid); width: 1px; margin: 4px 5px; }
 QToolBar::separator:vertical { background: palette(mid); height: 1px; margin: 5px 4px; }
 QToolBar QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 3px; }
+QToolBar QToolButton#qt_toolbar_ext_button { padding: 0px; }
 QToolBar QToolButton:hover { background: palette(midlight); }
 QToolBar QToolButton:pressed, QToolBar QToolButton:checked { background: palette(bright-text); border-color: palette(highlight); }
 QToolBar QToolButton:focus { border-color: palette(highlight); }

@@ -1,9 +1,12 @@
 // Icons and themes: everything can be seen, and told apart.
 #include <QApplication>
+#include <QMainWindow>
 #include <QPainter>
 #include <QStyle>
 #include <QStyleOption>
 #include <QTest>
+#include <QToolBar>
+#include <QToolButton>
 #include <algorithm>
 #include <cmath>
 
@@ -304,6 +307,24 @@ class LookTest : public QObject {
     style.drawPrimitive(QStyle::PE_IndicatorTabClose, &tab, &painter);
     painter.end();
     QVERIFY(brightest_of(picture) > 200);
+  }
+
+  void the_arrow_to_the_tools_that_have_no_room_can_be_seen_in_the_dark() {
+    ui::apply_theme(*qApp, ui::Theme::dark);
+    QMainWindow window;
+    QToolBar* bar = window.addToolBar("tools");
+    for (int tool = 0; tool < 20; ++tool) bar->addAction(ui::icon(u"add"), "tool");
+    window.resize(200, 100);
+    window.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&window));
+    auto* arrow = bar->findChild<QToolButton*>("qt_toolbar_ext_button");
+    QVERIFY(arrow && arrow->isVisible());
+    const QImage picture = arrow->grab().toImage();
+    int bright = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) bright += qGray(picture.pixel(x, y)) > 150 ? 1 : 0;
+    }
+    QVERIFY2(bright >= 20, qPrintable(QString::number(bright)));
   }
 
   // TIDEMARK_CONTACT_SHEETS=folder keeps them, to be looked at.
