@@ -153,9 +153,10 @@ bool CachedSpeed::is_mostly_missing(const VoxelBox& box) const {
   std::int64_t pages = 0;
   std::int64_t there = 0;
   const bool in_parts = all_pages(layout_, box.first, box.first + box.size, [&](Index3 page) {
+    if (takes_most(box, page)) return false;
     ++pages;
     if (ready(page) != nullptr) ++there;
-    return !takes_most(box, page);
+    return true;
   });
   return in_parts && 2 * there < pages;
 }

@@ -25,15 +25,14 @@ void DockShares::forget() {
 bool DockShares::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ChildAdded && watched == &window_)
     static_cast<QChildEvent*>(event)->child()->installEventFilter(this);
-  if (event->type() == QEvent::StyleChange && watched == &window_) restyled_ = true;
+  if (event->type() == QEvent::StyleChange && watched == &window_) settled_ = {};
   if (event->type() == QEvent::Resize || event->type() == QEvent::StyleChange) settling_.start();
   return QObject::eventFilter(watched, event);
 }
 
 void DockShares::note_or_restore() {
   if (!window_.isVisible()) return;
-  const bool restyled = std::exchange(restyled_, false);
-  if ((std::exchange(settled_, window_.size()) != window_.size() || restyled) && !shares_.isEmpty()) {
+  if (std::exchange(settled_, window_.size()) != window_.size() && !shares_.isEmpty()) {
     restoring_ = true;
     return restore();
   }

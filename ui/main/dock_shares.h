@@ -31,8 +31,7 @@ class DockShares : public QObject {
   QMainWindow& window_;
   Shares shares_;
   QTimer settling_;
-  QSize settled_;           // of the window, at last
-  bool restyled_ = false;   // since it settled
+  QSize settled_;           // of the window, at last; none: the docks have to get their shares again
   bool restoring_ = false;  // what docks become is no wish of the user
 };
 
