@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace tidemark {
 
@@ -11,6 +12,12 @@ glm::dvec3 Geometry::to_patient(glm::dvec3 voxel) const {
 
 glm::dvec3 Geometry::to_voxel(glm::dvec3 patient_mm) const {
   return (glm::inverse(direction) * (patient_mm - origin_mm)) / spacing_mm;
+}
+
+bool Geometry::covers(glm::dvec3 patient_mm) const {
+  const glm::dvec3 voxel = to_voxel(patient_mm);
+  return glm::all(glm::greaterThanEqual(voxel, glm::dvec3(-0.5))) &&
+         glm::all(glm::lessThanEqual(voxel, glm::dvec3(size) - 0.5));
 }
 
 bool same_grid(const Geometry& a, const Geometry& b, double tolerance_mm) {

@@ -35,6 +35,8 @@ struct Geometry {
   // Voxel coordinates (fractions allowed, integers at centres) to patient mm and back.
   [[nodiscard]] glm::dvec3 to_patient(glm::dvec3 voxel) const;
   [[nodiscard]] glm::dvec3 to_voxel(glm::dvec3 patient_mm) const;
+  // Whether a place lies in the volume, to the outer faces of its voxels.
+  [[nodiscard]] bool covers(glm::dvec3 patient_mm) const;
 };
 
 // Whether two geometries describe the same grid: sizes equal, positions within tolerance_mm at every corner.

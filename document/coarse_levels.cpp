@@ -23,6 +23,7 @@ class CoarseLevels {
   Result<std::optional<CoarseStart>> run();
 
  private:
+  [[nodiscard]] Status check_fits() const;
   Status find_inside();
   Result<std::unique_ptr<solver::Executor>> make_executor(const solver::CoarseGrid& grid) const;
   Result<bool> begin(solver::Executor& executor, const solver::CoarseGrid& grid);
@@ -36,6 +37,7 @@ class CoarseLevels {
 };
 
 Result<std::optional<CoarseStart>> CoarseLevels::run() {
+  TIDEMARK_TRY(check_fits());
   TIDEMARK_TRY(find_inside());
   for (int halvings = start_.levels - 1; halvings > 0; --halvings) {
     const solver::CoarseGrid grid(inputs_.source.geometry, halvings);
@@ -54,11 +56,18 @@ Result<std::optional<CoarseStart>> CoarseLevels::run() {
   return std::move(result_);
 }
 
-Status CoarseLevels::find_inside() {
+Status CoarseLevels::check_fits() const {
   if (std::holds_alternative<FieldStart>(start_.from)) {
     return fail(ErrorKind::usage, "a saved level set goes on as it is: it has no coarser levels");
   }
-  TIDEMARK_TRY(check_spheres(start_, inputs_.source.geometry));
+  // Its mean over a block is no tent, and executors on a GPU keep any other D within [-1, 1].
+  if (const solver::Tent* tent = inputs_.speed->tent(); tent != nullptr && tent->is_raw()) {
+    return fail(ErrorKind::usage, "the raw form of the tent has no coarser levels");
+  }
+  return check_spheres(start_, inputs_.source.geometry);
+}
+
+Status CoarseLevels::find_inside() {
   auto inside = inside_of(start_, {inputs_.source, inputs_.speed.get()}, progress_);
   if (!inside) return pass_on(inside);
   inside_ = std::move(*inside);
@@ -69,7 +78,8 @@ Result<std::unique_ptr<solver::Executor>> CoarseLevels::make_executor(const solv
   auto executor = solver::make_executor(inputs_.kind, grid_alone(grid.coarse()),
                                         solver::coarsened(inputs_.parameters, grid), inputs_.options);
   if (!executor) return executor;
-  TIDEMARK_TRY((*executor)->set_speed(std::make_shared<const solver::CoarseSpeed>(inputs_.speed, grid)));
+  TIDEMARK_TRY((*executor)->set_speed(std::make_shared<const solver::CoarseSpeed>(
+      inputs_.speed, grid, solver::velocity_factor(inputs_.parameters, grid))));
   if (inputs_.marks != nullptr) {
     TIDEMARK_TRY((*executor)->set_constraints(
         std::make_shared<const solver::Constraints>(solver::coarsened(*inputs_.marks, grid))));

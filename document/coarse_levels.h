@@ -36,7 +36,8 @@ struct CoarseStart {
 
 // phi after the coarser of `start.levels`. Unset where a coarse grid holds nothing of the start, or its
 // surface vanishes: what is so small begins on the volume's own grid. Fails (ErrorKind::usage) as begin()
-// does, and for a saved level set; (ErrorKind::capability) as executors do; (ErrorKind::cancelled).
+// does, for a saved level set and for the raw tent; (ErrorKind::capability) as executors do;
+// (ErrorKind::cancelled).
 Result<std::optional<CoarseStart>> run_coarse_levels(const Start& start, const CoarseInputs& inputs,
                                                      const Progress& progress);
 

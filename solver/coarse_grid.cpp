@@ -300,6 +300,10 @@ Parameters coarsened(const Parameters& parameters, const CoarseGrid& grid) {
   return result;
 }
 
+double velocity_factor(const Parameters& parameters, const CoarseGrid& grid) {
+  return grid.scale() / (grid.scale() * parameters.alpha + 1.0 - parameters.alpha);
+}
+
 Field refined(const Field& phi, const CoarseGrid& grid, double band, Index3 page_shape, int threads) {
   Field fine = Field::empty(grid.fine(), band, page_shape);
   Refiner(phi, grid, fine).run(threads);

@@ -49,6 +49,9 @@ class CoarseGrid {
 // Balances data and curvature on the coarse grid as on the fine one: lengths there are in units of its own
 // spacing, so that alpha becomes s alpha / (s alpha + 1 - alpha), s the scale.
 [[nodiscard]] Parameters coarsened(const Parameters& parameters, const CoarseGrid& grid);
+// What a velocity is multiplied by on the coarse grid, to keep its balance with data and curvature: they have
+// alpha' and s (1 - alpha') there, both s / (s alpha + 1 - alpha) times what they have on the fine one.
+[[nodiscard]] double velocity_factor(const Parameters& parameters, const CoarseGrid& grid);
 
 // phi of the coarse grid on the fine one, between voxels by linear interpolation, clamped to `band`.
 // `threads` as of ThreadPool.

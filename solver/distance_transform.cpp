@@ -188,6 +188,7 @@ class PageDistances {
 Field distance_transform(const Inside& inside, double band, Index3 page_shape) {
   Field phi = Field::empty(inside.geometry, band, page_shape);
   PageDistances(inside, phi).run();
+  phi.store_between();
   return phi;
 }
 

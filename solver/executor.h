@@ -79,8 +79,12 @@ class Executor {
   virtual ~Executor() = default;
   [[nodiscard]] virtual std::string_view name() const = 0;
 
+  // Edits (restore(), paint() and set_constraints()) leave phi as before where they fail. They are done as
+  // soon as there is room for what they change: a page beside it that finds none is asked for again by the
+  // next advance(), which fails where there still is none.
+  //
   // Replaces phi. Fails (ErrorKind::usage) when the grid or the band is not this level set's, and
-  // (ErrorKind::capability) when the memory budget does not allow it; phi is then as before.
+  // (ErrorKind::capability) when the memory budget does not allow it.
   virtual Status restore(const Field& phi) = 0;
   // Fails (ErrorKind::capability) when a graphics driver has lost its context, and phi with it.
   [[nodiscard]] virtual Result<Field> snapshot() const = 0;
@@ -94,8 +98,8 @@ class Executor {
   [[nodiscard]] virtual const Parameters& parameters() const = 0;
 
   // What drives the surface; null: the tent of the parameters on the source. Takes effect with the next step
-  // and wakes every page. Fails (ErrorKind::capability) when there is no memory for it; the former one then
-  // goes on.
+  // and wakes every page. Fails (ErrorKind::capability) when the memory budget does not allow it; the former
+  // one then goes on.
   virtual Status set_speed(std::shared_ptr<const SpeedFunction> speed) = 0;
   // What set_speed() was given, as it follows the surface now.
   [[nodiscard]] virtual const std::shared_ptr<const SpeedFunction>& speed() const = 0;

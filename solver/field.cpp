@@ -98,7 +98,25 @@ Field Field::from_dense(const Geometry& geometry, std::span<const float> values,
                  });
     field.store_page(page, page_values);
   }
+  field.store_between();
   return field;
+}
+
+void Field::store_between() {
+  const auto is_outside = [&](Index3 page) {
+    return layout.contains_page(page) && pages.kind(layout.page_number(page)) == Kind::outside;
+  };
+  for (std::int64_t page = 0; page < layout.page_count(); ++page) {
+    if (pages.kind(page) != Kind::inside) continue;
+    const Index3 at = layout.page_coordinates(page);
+    bool touches = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      Index3 step(0);
+      step[axis] = 1;
+      touches = touches || is_outside(at - step) || is_outside(at + step);
+    }
+    if (touches) std::fill_n(pages.store(page), layout.voxels_per_page(), static_cast<float>(band));
+  }
 }
 
 void Field::store_page(std::int64_t page, std::span<const float> values) {

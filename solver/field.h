@@ -44,12 +44,14 @@ struct Field {
   // the old band reaches it is as far as the new one does.
   [[nodiscard]] Field repaged(double new_band, Index3 page_shape) const;
 
-  // Values in voxel order; pages that are +band or -band throughout are not stored.
+  // Values in voxel order; pages that are +band or -band throughout are not stored, but for store_between().
   static Field from_dense(const Geometry& geometry, std::span<const float> values, double band,
                           Index3 page_shape = kDefaultPageShape);
   // What a page is, layout.voxels_per_page() values in [-band, band]. One that is +band or -band throughout
   // is not stored.
   void store_page(std::int64_t page, std::span<const float> values);
+  // Stores one of any two pages between which the surface lies: executors look for it on stored pages.
+  void store_between();
   // A stored page. Where it holds these values already, to the last bit, it stays where it lies.
   void update_page(std::int64_t page, const float* values);
 };

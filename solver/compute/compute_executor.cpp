@@ -296,7 +296,7 @@ Status ComputeExecutor::grow(std::int64_t more_pages) {
   return {};
 }
 
-Status ComputeExecutor::activate_pages() {
+Status ComputeExecutor::activate_pages(NoRoom no_room) {
   needs_activation_ = true;
   TIDEMARK_TRY(read_control());
   for (;;) {
@@ -314,7 +314,9 @@ Status ComputeExecutor::activate_pages() {
     TIDEMARK_TRY(device_->check("making pages resident"));
     if (control_.starved == 0) break;
     constexpr std::int64_t kFewPages = 8;  // how many are missing is not counted
-    TIDEMARK_TRY(grow(kFewPages));
+    if (Status grown = grow(kFewPages); !grown) {
+      return no_room == NoRoom::fails ? grown : device_->check("making pages resident");
+    }
   }
   needs_activation_ = false;
   return {};
@@ -341,7 +343,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
   paging_clock_ = {};
   TIDEMARK_TRY(device_->make_current());
   if (needs_activation_) {
-    TIDEMARK_TRY(activate_pages());
+    TIDEMARK_TRY(activate_pages(NoRoom::fails));
   }
   control_.converged = 0;
   while (report.steps < run.steps && !run.progress.cancelled()) {
@@ -360,7 +362,7 @@ Result<AdvanceReport> ComputeExecutor::advance(const Advance& run) {
     report.moving_pages = control->moving_pages;
     if (control->window != window) rests_ = control->converged != 0;
     if (control->starved != 0) {
-      if (auto status = activate_pages(); !status) {
+      if (auto status = activate_pages(NoRoom::fails); !status) {
         return fail(status.error().kind, "after {} steps: {}", report.steps, status.error().message);
       }
       control_.converged = 0;

@@ -58,7 +58,7 @@ class ComputeExecutor final : public GlExecutor {
   Result<ComputeControl> run_steps(std::int64_t count, bool until_converged);
 
   // Grants every request of the present phi; G grows as needed.
-  Status activate_pages();
+  Status activate_pages(NoRoom no_room);
   // control_ is the present one.
   Status grow(std::int64_t more_pages);
   Status replace(const Field& phi) override;

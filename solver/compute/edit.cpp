@@ -18,7 +18,7 @@ Status ComputeExecutor::replace(const Field& phi) {
   steps_in_window_ = 0;
   rests_ = false;
   peak_resident_ = peak_bytes_ = 0;
-  return activate_pages();
+  return activate_pages(NoRoom::waits);
 }
 
 Status ComputeExecutor::wake_all_pages() {
@@ -72,7 +72,7 @@ Status ComputeExecutor::paint(const Sphere& sphere, Brush brush) {
   memory_.write_control(control_);
   order_sphere(sphere, brush, false);
   begin_window(false);
-  return activate_pages();
+  return activate_pages(NoRoom::waits);
 }
 
 }  // namespace tidemark::solver

@@ -46,6 +46,10 @@ class GlExecutor : public ExecutorBase {
   [[nodiscard]] Result<std::int64_t> capacity_for(
       std::int64_t needed, bool copied, const std::function<std::int64_t(std::int64_t)>& state_bytes) const;
 
+  // Of pages beside those that an edit has changed or a run has moved into. A run fails where one finds no
+  // room; an edit is done without them, and the next run asks for them again.
+  enum class NoRoom { fails, waits };
+
   // Fills what drives the surface around resident pages, and as far as it comes in so many steps. Fails
   // (ErrorKind::capability) when that takes more than the memory budget allows.
   Status fill_drive(std::span<const std::int64_t> pages, std::int64_t steps);

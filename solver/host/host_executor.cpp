@@ -78,6 +78,7 @@ Status HostExecutor::paint(const Sphere& sphere, Brush brush) {
 Status HostExecutor::drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) {
   auto drive = drive_with(parameters, std::move(given));
   if (!drive) return pass_on(drive);
+  TIDEMARK_TRY(pages_.keep_advection(drive->used->advects()));
   take(std::move(*drive));
   constants_ = model_.constants<float>();
   begin_window();
@@ -107,7 +108,7 @@ Status HostExecutor::set_constraints(std::shared_ptr<const Constraints> constrai
     pages_.link_constraints();
     return limited;
   }
-  return pages_.activate_all();
+  return {};
 }
 
 // Takes a page to the limits of its constraints; `before` is phi two steps ago.

@@ -9,7 +9,7 @@ HostFields::HostFields(PagedMemory<3>& memory)
       infos_(memory.attach<PageInfo, 1>()) {}
 
 void HostFields::keep_advection(bool wanted) {
-  if (wanted == advection_.is_attached()) return;
+  if (wanted == keeps_advection()) return;
   if (wanted) {
     advection_ = memory_->attach<float, kPageVoxels, 3>();
   } else {

@@ -50,8 +50,10 @@ class HostFields {
 
   // dt v / h of each axis, three times kPageVoxels; null: the speed function has no velocity.
   [[nodiscard]] float* advection(PhysicalPage page) const {
-    return advection_.is_attached() ? advection_.values(page) : nullptr;
+    return keeps_advection() ? advection_.values(page) : nullptr;
   }
+  static constexpr int kAdvectionFloatsPerPage = 3 * kPageVoxels;
+  [[nodiscard]] bool keeps_advection() const { return advection_.is_attached(); }
   void keep_advection(bool wanted);
 
   [[nodiscard]] PageInfo& info(PhysicalPage page) { return infos_[page]; }

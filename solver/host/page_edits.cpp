@@ -62,47 +62,54 @@ Status PageEdits::restore(const Field& phi) {
   if (phi.layout.page_shape() != kDefaultPageShape) {
     return restore(phi.repaged(phi.band, kDefaultPageShape));
   }
-  TIDEMARK_TRY(pages_.memory().check_budget(phi.pages.stored() - pages_.table().resident()));
+  Field limited = phi;
+  if (contents_.constraints != nullptr) tidemark::solver::constrain(limited, *contents_.constraints);
+  const SharedPages& wanted = limited.pages;
+  TIDEMARK_TRY(pages_.memory().check_budget(wanted.stored() - pages_.table().resident()));
 
   pages_.clear();
   quiet_.clear();
-  for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-    if (phi.pages.kind(page) != Field::Kind::inside) continue;
-    pages_.set_static(phi.layout.page_coordinates(page), true);
+  for (std::int64_t page = 0; page < wanted.size(); ++page) {
+    if (wanted.kind(page) != Field::Kind::inside) continue;
+    pages_.set_static(limited.layout.page_coordinates(page), true);
   }
-  for (const std::int64_t page : phi.pages.stored_pages()) {
+  for (const std::int64_t page : wanted.stored_pages()) {
     TIDEMARK_TRY(pages_.make_resident(page));
   }
   pages_.fill_new_pages();
   pages_.memory().for_each_resident([&](PhysicalPage page) {
-    std::copy_n(phi.pages.values(pages_.memory().virtual_page(page)), kPageVoxels, pages_.phi(page));
+    std::copy_n(wanted.values(pages_.memory().virtual_page(page)), kPageVoxels, pages_.phi(page));
     pages_.refresh(page);
   });
-  pages_.know(phi.pages);
-  TIDEMARK_TRY(constrain());
-  return pages_.activate_all();
+  pages_.know(wanted);
+  static_cast<void>(pages_.activate_all());
+  return {};
 }
 
 Status PageEdits::constrain() {
+  if (const Constraints* constraints = contents_.constraints.get(); constraints != nullptr) {
+    TIDEMARK_TRY(constrain(constraints->pages().stored_pages()));
+  }
+  static_cast<void>(pages_.activate_all());
+  return {};
+}
+
+bool PageEdits::may_be_constant(std::int64_t virtual_page, bool inside) const {
   const Constraints* constraints = contents_.constraints.get();
-  if (constraints == nullptr || constraints->empty()) return {};
-  return constrain(constraints->pages().stored_pages());
+  const Constraint* const there = constraints == nullptr ? nullptr : constraints->page(virtual_page);
+  return there == nullptr || allows_constant(there, inside);
 }
 
 Status PageEdits::constrain(const std::vector<std::int64_t>& virtual_pages) {
   const Constraints* constraints = contents_.constraints.get();
   if (constraints == nullptr || constraints->empty()) return {};
   const PagedMemory<3>& memory = pages_.memory();
-  // A page that is not resident is constant.
-  const auto moves = [](const Constraint* page, PhysicalPage constant) {
-    return std::any_of(page, page + Constraints::kPageVoxels, constant == kInsidePage ? is_upper : is_lower);
-  };
   std::vector<std::int64_t> to_allocate;
   for (const std::int64_t page : virtual_pages) {
-    const Constraint* const there = constraints->page(page);
     const PhysicalPage physical = memory.physical(page);
-    if (there == nullptr || !is_static_page(physical)) continue;
-    if (moves(there, physical)) to_allocate.push_back(page);
+    // A page that is not resident is constant.
+    if (!is_static_page(physical) || may_be_constant(page, physical == kInsidePage)) continue;
+    to_allocate.push_back(page);
   }
   TIDEMARK_TRY(memory.check_budget(static_cast<std::int64_t>(to_allocate.size())));
   for (const std::int64_t page : to_allocate) {
@@ -139,10 +146,10 @@ Status PageEdits::paint(const Sphere& sphere, Brush brush) {
     stroke.paint(coordinates, pages_.phi(page), values);
     const float constant = *pages_.phi(page);
     if (all_equal(values, constant)) return;
-    if (all_equal(values, -constant)) {
+    if (all_equal(values, -constant) && may_be_constant(below.back(), brush == Brush::add)) {
       to_flip.push_back(coordinates);
     } else {
-      to_allocate.push_back(memory.layout().page_number(coordinates));
+      to_allocate.push_back(below.back());
     }
   });
   TIDEMARK_TRY(memory.check_budget(static_cast<std::int64_t>(to_allocate.size())));
@@ -163,7 +170,8 @@ Status PageEdits::paint(const Sphere& sphere, Brush brush) {
     quiet_.wake_around(page);
   });
   TIDEMARK_TRY(constrain(below));
-  return pages_.activate_around(below);
+  static_cast<void>(pages_.activate_around(below));
+  return {};
 }
 
 }  // namespace tidemark::solver

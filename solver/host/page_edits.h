@@ -9,6 +9,8 @@
 
 namespace tidemark::solver {
 
+// An edit is done when there is room for the pages that it changes. Pages beside them that find none are
+// asked for again by the next run (ResidentPages::needs_activation()).
 class PageEdits {
  public:
   // What it is made from outlives it.
@@ -23,6 +25,8 @@ class PageEdits {
 
  private:
   Status constrain(const std::vector<std::int64_t>& virtual_pages);
+  // Whether a page may be all inside, or all outside.
+  [[nodiscard]] bool may_be_constant(std::int64_t virtual_page, bool inside) const;
 
   ResidentPages::Contents contents_;
   ResidentPages& pages_;

@@ -199,8 +199,16 @@ void ResidentPages::fill_motion(PhysicalPage page) {
   }
 }
 
+Status ResidentPages::keep_advection(bool wanted) {
+  if (wanted && !fields_.keeps_advection()) {
+    TIDEMARK_TRY(memory_.check_budget(
+        0, HostFields::kAdvectionFloatsPerPage * static_cast<std::int64_t>(sizeof(float))));
+  }
+  fields_.keep_advection(wanted);
+  return {};
+}
+
 void ResidentPages::refill() {
-  fields_.keep_advection(contents_.speed->advects());
   std::vector<PhysicalPage> pages;
   memory_.for_each_resident([&](PhysicalPage page) { pages.push_back(page); });
   threads_.for_each(static_cast<std::int64_t>(pages.size()), 8,

@@ -48,7 +48,8 @@ class ResidentPages {
   // What a page asks for after a step that wrote `buffer`, as bits of page_code.h.
   [[nodiscard]] std::uint8_t requests(PhysicalPage page, int buffer);
   Status grant_requests(PhysicalPage page, std::uint8_t code);
-  // Grants the requests of every page, after phi was replaced.
+  // Grants the requests of every page, after phi was replaced. Where the budget does not allow a page, those
+  // before it are made, and needs_activation() says that it is missing.
   Status activate_all();
   // The same after these virtual pages have changed: nothing else asks for pages but they and those that they
   // touch.
@@ -65,7 +66,10 @@ class ResidentPages {
 
   // After the current buffer of a page was written to: the masks of both buffers, and the other buffer.
   void refresh(PhysicalPage page);
-  // After the parameters or the speed function changed.
+  // Before the parameters or the speed function change: room for the velocity that the next one has. Fails
+  // (ErrorKind::capability) when that is above the budget; nothing has changed then.
+  Status keep_advection(bool wanted);
+  // After they have changed.
   void refill();
   // After the constraints changed: what pages know of them. phi is as before.
   void link_constraints();

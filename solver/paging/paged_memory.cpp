@@ -16,13 +16,14 @@ std::int64_t PagedMemory<kDimensions>::most_pages(std::int64_t bytes_a_page) con
 }
 
 template <int kDimensions>
-Status PagedMemory<kDimensions>::check_budget(std::int64_t more_pages) const {
+Status PagedMemory<kDimensions>::check_budget(std::int64_t more_pages, std::int64_t more_page_bytes) const {
   const std::int64_t capacity =
       std::max<std::int64_t>(table_.capacity(), table_.capacity() + more_pages - table_.free_count());
   // The lists and tables that grow with the pages take at most this much more for each, their reserve
-  // included.
+  // included. They count by that and not as they are: pages that are let in together find room one by one.
   constexpr std::int64_t kListBytesPerPage = 64;
-  const std::int64_t bytes = capacity * (page_bytes_ + kListBytesPerPage) + table_.bytes();
+  const std::int64_t table_bytes = layout_.page_count() * static_cast<std::int64_t>(sizeof(PhysicalPage));
+  const std::int64_t bytes = capacity * (page_bytes_ + more_page_bytes + kListBytesPerPage) + table_bytes;
   if (bytes <= budget_ && capacity <= std::numeric_limits<PhysicalPage>::max()) return {};
   return fail(ErrorKind::capability, "the surface needs {} pages, {} MB, and the memory budget is {} MB",
               capacity, bytes >> 20, budget_ >> 20);

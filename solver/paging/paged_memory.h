@@ -76,8 +76,9 @@ class PagedMemory {
   // As PageTable says.
   void release(std::int64_t page, bool inside);
   void set_static(std::int64_t page, bool inside);
-  // Fails (ErrorKind::capability) when so many more pages are above the budget.
-  [[nodiscard]] Status check_budget(std::int64_t more_pages) const;
+  // Fails (ErrorKind::capability) when so many more pages are above the budget, with fields of so many more
+  // bytes a page.
+  [[nodiscard]] Status check_budget(std::int64_t more_pages, std::int64_t more_page_bytes = 0) const;
 
   // Calls visit(physical page) for the resident ones.
   template <class Visit>

@@ -98,6 +98,11 @@ void CachedSpeed::evaluate(const VoxelBox& box, double* speed) const {
   std::transform(values.begin(), values.end(), speed, speed_of);
 }
 
+void CachedSpeed::evaluate_once(const VoxelBox& box, double* speed) const {
+  function_->evaluate_once(box, speed);
+  std::transform(speed, speed + box.voxels(), speed, [](double d) { return speed_of(quantised_speed(d)); });
+}
+
 void CachedSpeed::quantised(const VoxelBox& box, std::int16_t* speed) const {
   if (is_mostly_missing(box)) return evaluate_anew(*function_, box, speed);
   const Index3 first = box.first / kDefaultPageShape;

@@ -44,6 +44,7 @@ class CachedSpeed final : public SpeedFunction {
   CachedSpeed& operator=(const CachedSpeed&) = delete;
 
   void evaluate(const VoxelBox& box, double* speed) const override;
+  void evaluate_once(const VoxelBox& box, double* speed) const override;
   // The same before it is divided by kSpeedSteps.
   void quantised(const VoxelBox& box, std::int16_t* speed) const;
 

@@ -1,5 +1,6 @@
 #include "solver/speed/coarse_speed.h"
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <vector>
 
@@ -54,12 +55,14 @@ void CoarseSpeed::evaluate_advection(const VoxelBox& box, glm::vec3* velocity) c
   std::vector<glm::vec3> values(static_cast<std::size_t>(voxels.voxels()));
   fine_->evaluate_advection(voxels, values.data());
   average(voxels, grid_.factor(), values.data(), velocity);
+  std::for_each_n(velocity, box.voxels(), [&](glm::vec3& v) { v = scaled(v, velocity_factor_); });
 }
 
 std::shared_ptr<const SpeedFunction> CoarseSpeed::following(const Field& phi) const {
   const double band = phi.band * grid_.scale();
   auto next = fine_->following(refined(phi, grid_, band, kDefaultPageShape));
-  return next == nullptr ? nullptr : std::make_shared<const CoarseSpeed>(std::move(next), grid_);
+  if (next == nullptr) return nullptr;
+  return std::make_shared<const CoarseSpeed>(std::move(next), grid_, velocity_factor_);
 }
 
 }  // namespace tidemark::solver

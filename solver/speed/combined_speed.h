@@ -17,7 +17,12 @@ class CombinedSpeed final : public SpeedFunction {
   // At least one function, with D in [-1, 1].
   CombinedSpeed(std::vector<std::shared_ptr<const SpeedFunction>> functions, Combine combine);
 
-  void evaluate(const VoxelBox& box, double* speed) const override;
+  void evaluate(const VoxelBox& box, double* speed) const override {
+    join(&SpeedFunction::evaluate, box, speed);
+  }
+  void evaluate_once(const VoxelBox& box, double* speed) const override {
+    join(&SpeedFunction::evaluate_once, box, speed);
+  }
 
   [[nodiscard]] bool advects() const override;
   void evaluate_advection(const VoxelBox& box, glm::vec3* velocity) const override;
@@ -35,6 +40,10 @@ class CombinedSpeed final : public SpeedFunction {
                                                                 const Parameters& parameters) const;
 
  private:
+  // The D of all functions by that method.
+  using Evaluate = void (SpeedFunction::*)(const VoxelBox&, double*) const;
+  void join(Evaluate evaluate, const VoxelBox& box, double* speed) const;
+
   std::vector<std::shared_ptr<const SpeedFunction>> functions_;
   Combine combine_;
 };

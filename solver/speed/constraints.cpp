@@ -21,6 +21,24 @@ double steps_from_lowest(double phi) {
   return (phi + static_cast<double>(kLimitReach)) * kLimitSteps;
 }
 
+// allows_constant() of one page after the other. Most pages of a motion limit are one page in memory, which
+// is then looked at once.
+class AllowedConstants {
+ public:
+  bool allows(const Constraint* page, bool inside) {
+    Answer& last = last_[inside ? 1 : 0];
+    if (page != last.page) last = {page, allows_constant(page, inside)};
+    return last.allowed;
+  }
+
+ private:
+  struct Answer {
+    const Constraint* page = nullptr;
+    bool allowed = true;
+  };
+  Answer last_[2];
+};
+
 }  // namespace
 
 Constraint at_most(double phi) {
@@ -31,6 +49,10 @@ Constraint at_most(double phi) {
 Constraint at_least(double phi) {
   if (phi <= -static_cast<double>(kLimitReach)) return Constraint::none;
   return limit(kFirstAtLeast, std::ceil(steps_from_lowest(phi)));
+}
+
+bool allows_constant(const Constraint* page, bool inside) {
+  return std::none_of(page, page + Constraints::kPageVoxels, inside ? is_upper : is_lower);
 }
 
 Constraints::Constraints(Index3 grid_size)
@@ -149,10 +171,17 @@ void constrain(Field& phi, const Constraints& constraints) {
     }
     values[address.offset] = limited(what, values[address.offset]);
   };
+  AllowedConstants constants;
   for (const std::int64_t page : constraints.pages().stored_pages()) {
+    const Constraint* const there = constraints.page(page);
     const Index3 first = layout.first_voxel(page);
+    const bool stays = all_pages(phi.layout, first, first + layout.valid_shape(page), [&](Index3 other) {
+      const Field::Kind kind = phi.pages.kind(phi.layout.page_number(other));
+      return kind != Field::Kind::stored && constants.allows(there, kind == Field::Kind::inside);
+    });
+    if (stays) continue;
     for (std::int64_t i = 0; i < Constraints::kPageVoxels; ++i) {
-      const Constraint what = constraints.page(page)[i];
+      const Constraint what = there[i];
       if (what != Constraint::none) limit(first + Index3(i % 8, i / 8 % 8, i / 64), what);
     }
   }

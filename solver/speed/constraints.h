@@ -57,6 +57,9 @@ template <class Real>
   return is_upper(constraint) ? std::min(phi, limit) : std::max(phi, limit);
 }
 
+// Whether these constraints of a page's voxels let phi be all inside there, or all outside.
+[[nodiscard]] bool allows_constant(const Constraint* page, bool inside);
+
 // Kept by pages of 8^3 voxels, which copies share: memory follows what is constrained, not the volume.
 class Constraints {
  public:

@@ -16,6 +16,7 @@ constexpr std::int64_t kSlices = 8;  // that are evaluated at a time
 
 Result<BitMask> growing_region(const SpeedFunction& function, const Geometry& grid,
                                const Progress& progress) {
+  // As D is before a cache quantises it.
   const auto* cached = dynamic_cast<const CachedSpeed*>(&function);
   const SpeedFunction& direct = cached != nullptr ? cached->function() : function;
   const Index3 size = grid.size;
@@ -30,7 +31,7 @@ Result<BitMask> growing_region(const SpeedFunction& function, const Geometry& gr
       const Index3 begin(0, 0, slab * kSlices);
       const VoxelBox box{begin, {size.x, size.y, std::min(kSlices, size.z - begin.z)}};
       speed.resize(static_cast<std::size_t>(box.voxels()));
-      direct.evaluate(box, speed.data());
+      direct.evaluate_once(box, speed.data());
       const std::scoped_lock lock(mutex);
       std::int64_t offset = grid.offset(begin);
       for (const double value : speed) {

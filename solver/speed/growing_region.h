@@ -8,8 +8,8 @@
 
 namespace tidemark::solver {
 
-// Of all voxels of the grid, which is the function's. A cache before the function (CachedSpeed) is not
-// filled: a surface needs few of its pages. Fails (ErrorKind::cancelled).
+// Of all voxels of the grid, which is the function's. No cache (CachedSpeed) is filled for it: a surface
+// needs few of its pages. Fails (ErrorKind::cancelled).
 Result<BitMask> growing_region(const SpeedFunction& function, const Geometry& grid, const Progress& progress);
 
 }  // namespace tidemark::solver

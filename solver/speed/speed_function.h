@@ -17,6 +17,8 @@ struct Tent {
   double slope = 1.0;  // per unit of the source
   double floor = -1.0;
 
+  // Whether D may be beyond [-1, 1]: the raw form.
+  [[nodiscard]] bool is_raw() const { return floor < -1.0; }
   bool operator==(const Tent&) const = default;
 };
 
@@ -42,6 +44,8 @@ class SpeedFunction {
 
   // Writes D of the box's voxels. The box lies inside of the grid. D is in [-1, 1], but for the raw tent's.
   virtual void evaluate(const VoxelBox& box, double* speed) const = 0;
+  // The same for who asks for a voxel once alone: no cache keeps it.
+  virtual void evaluate_once(const VoxelBox& box, double* speed) const { evaluate(box, speed); }
   // max |D|, which bounds the time step.
   [[nodiscard]] virtual double largest() const { return 1.0; }
 

@@ -63,7 +63,7 @@ Result<std::shared_ptr<const SpeedFunction>> make_term(const SpeedTerm& term, co
 }
 
 Status can_be_joined(const Tent& tent) {
-  if (tent.floor >= -1.0) return {};
+  if (!tent.is_raw()) return {};
   return fail(ErrorKind::usage, "the raw form of the tent cannot be joined with other speed functions");
 }
 

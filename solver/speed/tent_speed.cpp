@@ -14,12 +14,10 @@ Tent tent_of(const Parameters& parameters) {
 }
 
 TentSpeed::TentSpeed(std::shared_ptr<const Volume> source, const Parameters& parameters)
-    : source_(std::move(source)),
-      tent_(tent_of(parameters)),
-      is_raw_(parameters.data_form == DataForm::raw) {}
+    : source_(std::move(source)), tent_(tent_of(parameters)) {}
 
 double TentSpeed::largest() const {
-  if (!is_raw_) return 1.0;
+  if (!tent_.is_raw()) return 1.0;
   const auto [low, high] = source_->range();
   const auto raw = [&](double value) { return tent_.peak - std::abs(value - tent_.target); };
   return std::max({std::abs(raw(low)), std::abs(raw(high)), tent_.peak});

@@ -23,7 +23,6 @@ class TentSpeed final : public SpeedFunction {
  private:
   std::shared_ptr<const Volume> source_;
   Tent tent_;
-  bool is_raw_;
 };
 
 }  // namespace tidemark::solver

@@ -118,7 +118,7 @@ std::vector<PhysicalPage> StreamExecutor::resident_pages() const {
 
 // Grants every request of the present phi, after it was replaced or painted; `asked` are the pages that may
 // have some.
-Status StreamExecutor::activate_pages(std::vector<PhysicalPage> asked) {
+Status StreamExecutor::activate_pages(std::vector<PhysicalPage> asked, NoRoom no_room) {
   needs_activation_ = true;
   // Pages that are made resident on the way may ask for more.
   while (!asked.empty()) {
@@ -133,7 +133,7 @@ Status StreamExecutor::activate_pages(std::vector<PhysicalPage> asked) {
     asked = new_[0];
     asked.insert(asked.end(), new_[1].begin(), new_[1].end());
     TIDEMARK_TRY(fill_new_pages());
-    if (!result) return result;
+    if (!result) return no_room == NoRoom::fails ? result : device_->check("making pages resident");
   }
   needs_activation_ = false;
   return device_->check("making pages resident");

@@ -89,7 +89,7 @@ Status StreamExecutor::replace(const Field& phi) {
   active_list_is_stale_ = true;
   peak_resident_ = pages_.table().resident();
   peak_bytes_ = with_textures(state_bytes(memory_.capacity()));
-  TIDEMARK_TRY(activate_pages(resident_pages()));
+  TIDEMARK_TRY(activate_pages(resident_pages(), NoRoom::waits));
   return rebuild_active_list();
 }
 
@@ -185,7 +185,7 @@ Status StreamExecutor::paint(const Sphere& sphere, Brush brush) {
   active_list_is_stale_ = true;
   restart_watch(layout_.layout().voxels_per_page());
   begin_window();
-  TIDEMARK_TRY(activate_pages(needs_activation_ ? resident_pages() : std::move(pages)));
+  TIDEMARK_TRY(activate_pages(needs_activation_ ? resident_pages() : std::move(pages), NoRoom::waits));
   return rebuild_active_list();
 }
 

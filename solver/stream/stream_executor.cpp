@@ -94,7 +94,7 @@ Result<AdvanceReport> StreamExecutor::advance(const Advance& run) {
   steps_of_last_run_ = 0;
   TIDEMARK_TRY(make_current());
   if (needs_activation_) {
-    TIDEMARK_TRY(activate_pages(resident_pages()));
+    TIDEMARK_TRY(activate_pages(resident_pages(), NoRoom::fails));
   }
   if (active_list_is_stale_) {
     TIDEMARK_TRY(rebuild_active_list());

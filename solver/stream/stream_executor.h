@@ -72,7 +72,7 @@ class StreamExecutor final : public GlExecutor {
   void release_page(PhysicalPage page, bool inside);
   Status update_domain(const std::vector<PageMessage>& messages);
   [[nodiscard]] std::vector<PhysicalPage> resident_pages() const;
-  Status activate_pages(std::vector<PhysicalPage> asked);
+  Status activate_pages(std::vector<PhysicalPage> asked, NoRoom no_room);
   Status validate_sleeping_pages() const;
 
   // Replacing phi, painting, and what drives the surface (edit.cpp).

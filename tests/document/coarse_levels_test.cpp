@@ -237,6 +237,32 @@ class CoarseLevelsTest : public QObject {
     QCOMPARE(begun.error().kind, ErrorKind::usage);
   }
 
+  // Its D is not within [-1, 1], as the mean of a block has to be on a GPU.
+  void the_raw_tent_has_no_levels_data() { add_executors(); }
+  void the_raw_tent_has_no_levels() {
+    const QString reason = "the raw form of the tent has no coarser levels";
+    const auto document = case_in_levels(1, this_executor());
+    document::LevelSet& level_set = document->level_set();
+    solver::Parameters raw = level_set.parameters();
+    raw.data_form = solver::DataForm::raw;
+    QCOMPARE(failure(level_set.set_parameters(raw)), QString());
+    const Seen before(level_set);
+    const document::Start start = in_levels(*document->volume(), 2);
+    const Status begun = level_set.begin(start);
+    QCOMPARE(failure(begun), reason);
+    QCOMPARE(begun.error().kind, ErrorKind::usage);
+    QVERIFY(Seen(level_set) == before);
+    run(level_set, 3);
+    document::Recipe recipe = recipe_in_levels(*document->volume(), 2);
+    recipe.parameters.data_form = solver::DataForm::raw;
+    QCOMPARE(failure(document::evolve(recipe, document->volume(), {this_executor(), {}, true})), reason);
+    // Another function has them, whatever the form of the tent is.
+    document::Drive drive = level_set.drive();
+    drive.setting.terms = {{"edges", {}}};
+    recipe.drive = std::make_shared<const document::Drive>(drive);
+    QCOMPARE(failure(document::evolve(recipe, document->volume(), {this_executor(), {}, true})), QString());
+  }
+
   // Programs that know no levels refuse it; a recipe without them is still read by those.
   void a_recipe_has_the_first_version_that_can_read_it() {
     const auto volume = lumpy_volume();

@@ -175,11 +175,55 @@ class CoarseGridTest : public QObject {
       const double radius = 2.0 * (1.0 - alpha) / alpha;                          // in fine voxels
       const double coarse_radius = grid.scale() * 2.0 * (1.0 - coarse) / coarse;  // in fine voxels, too
       QVERIFY(std::abs(radius - coarse_radius) < 1e-12 * radius);
+      // A velocity grows as the weights of the other two do.
+      const double factor = solver::velocity_factor(parameters, grid);
+      QVERIFY(std::abs(factor - coarse / alpha) < 1e-12 * factor);
+      QVERIFY(std::abs(factor - grid.scale() * (1.0 - coarse) / (1.0 - alpha)) < 1e-12 * factor);
     }
     for (const double alpha : {0.0, 1.0}) {
       parameters.alpha = alpha;
       QCOMPARE(solver::coarsened(parameters, grid).alpha, alpha);
+      QCOMPARE(solver::velocity_factor(parameters, grid), alpha == 0.0 ? grid.scale() : 1.0);
     }
+  }
+
+  // With D = 1 and a flow inward of k r a ball rests where alpha = (1 - alpha) 2 / r + k r; by upwind
+  // differences about a voxel further in. Were the flow not faster on the coarse grid it would rest at 15.4
+  // mm there.
+  void a_flow_holds_a_ball_at_the_same_radius() {
+    constexpr double kRest_mm = 12.0;
+    solver::Parameters parameters;
+    parameters.alpha = 0.6;
+    const double inward = (parameters.alpha - (1.0 - parameters.alpha) * 2.0 / kRest_mm) / kRest_mm;
+    const Geometry fine = grid({48, 48, 48}, {1, 1, 1});
+    const solver::CoarseGrid half(fine, 1);
+    const glm::dvec3 middle = centre_of(fine);
+    const auto function = std::make_shared<const FormulaSpeed>(
+        [](glm::dvec3) { return 1.0; },
+        [&](glm::dvec3 voxel) { return glm::vec3(-inward * (voxel - middle)); },
+        inward * glm::length(middle));
+    const auto radius_at_rest = [&](const Geometry& geometry, const solver::Parameters& balanced,
+                                    std::shared_ptr<const solver::SpeedFunction> speed) {
+      const auto level_set = executor(solver::ExecutorKind::host, zero_volume(geometry), balanced);
+      if (!level_set->set_speed(std::move(speed)) ||
+          !level_set->paint({middle, kRest_mm}, solver::Brush::add)) {
+        qFatal("the ball cannot be placed");
+      }
+      run(*level_set, 600);
+      return mean_radius(level_set->snapshot().value(), middle);
+    };
+    const double alone_mm = radius_at_rest(fine, parameters, function);
+    const auto on_coarse_grid = [&](double factor) {
+      return radius_at_rest(half.coarse(), solver::coarsened(parameters, half),
+                            std::make_shared<const solver::CoarseSpeed>(function, half, factor));
+    };
+    const double coarse_mm = on_coarse_grid(solver::velocity_factor(parameters, half));
+    const double unscaled_mm = on_coarse_grid(1.0);
+    qInfo("at rest at %.2f mm, on the coarse grid at %.2f mm; by the fine grid's velocity there at %.2f mm",
+          alone_mm, coarse_mm, unscaled_mm);
+    QVERIFY(std::abs(alone_mm - kRest_mm) < 1.25);
+    QVERIFY(std::abs(coarse_mm - kRest_mm) < 1.25 * 2.0);  // of voxels twice as large
+    QVERIFY(unscaled_mm > coarse_mm + 3.0);
   }
 
   void speed_is_the_mean_of_a_block_in_every_box() {
@@ -188,8 +232,10 @@ class CoarseGridTest : public QObject {
     const auto function = std::make_shared<const FormulaSpeed>(
         [](glm::dvec3 v) { return std::sin(0.7 * (v.x + 3.0 * v.y + 5.0 * v.z)); },
         [](glm::dvec3 v) { return glm::vec3(0.1 * v.x, 0.0, -0.05 * v.z); }, 1.3);
-    const solver::CoarseSpeed coarse(function, grid);
+    constexpr double kFaster = 1.25;
+    const solver::CoarseSpeed coarse(function, grid, kFaster);
     QVERIFY(coarse.advects());
+    QCOMPARE(coarse.fastest_advection(), kFaster * function->fastest_advection());
     const solver::VoxelBox all{{0, 0, 0}, grid.coarse().size};
     std::vector<double> speed(static_cast<std::size_t>(all.voxels()));
     std::vector<glm::vec3> velocity(static_cast<std::size_t>(all.voxels()));
@@ -216,7 +262,7 @@ class CoarseGridTest : public QObject {
       const auto count = static_cast<double>(size.x * size.y * size.z);
       const auto i = static_cast<std::size_t>(offset);
       QVERIFY(std::abs(speed[i] - sum / count) < 1e-12);
-      QVERIFY(glm::distance(glm::dvec3(velocity[i]), drift / count) < 1e-6);
+      QVERIFY(glm::distance(glm::dvec3(velocity[i]), kFaster * drift / count) < 1e-6);
       double alone = 0.0;
       coarse.evaluate({block, Index3(1)}, &alone);
       QCOMPARE(alone, speed[i]);

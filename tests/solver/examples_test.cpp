@@ -1,11 +1,14 @@
 // The speed function `examples`: features, the forest, and what it makes of strokes.
 #include <cmath>
+#include <latch>
 #include <random>
+#include <thread>
 
 #include "solver/speed/combined_speed.h"
 #include "solver/speed/doubt_map.h"
 #include "solver/speed/examples/examples_speed.h"
 #include "solver/speed/examples/forest_training.h"
+#include "solver/speed/examples/shared_by_volume.h"
 #include "speed_functions.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -98,6 +101,8 @@ class ExamplesTest : public QObject {
   void an_image_on_another_grid_is_refused();
   void training_can_be_cancelled();
   void a_pyramid_is_shared_and_goes_with_its_users();
+  void a_pyramid_is_not_waited_for_once_asked_to_stop();
+  void who_waits_makes_what_was_not_made();
 };
 
 void ExamplesTest::features_of_a_quadratic_are_its_derivatives() {
@@ -355,6 +360,65 @@ void ExamplesTest::a_pyramid_is_shared_and_goes_with_its_users() {
   QVERIFY(!watched.expired());
   *second = nullptr;
   QVERIFY(watched.expired());
+}
+
+void ExamplesTest::a_pyramid_is_not_waited_for_once_asked_to_stop() {
+  using Number = std::shared_ptr<const int>;
+  SharedByVolume<int> numbers;
+  const auto make = [](int number) {
+    return [number]() -> Result<Number> { return std::make_shared<const int>(number); };
+  };
+  const auto volume = std::make_shared<const Volume>();
+  std::latch begun(1);
+  std::latch may_end(1);
+  Result<Number> slow;
+  std::jthread maker([&] {
+    slow = numbers.of(volume, {}, [&]() -> Result<Number> {
+      begun.count_down();
+      may_end.wait();
+      return std::make_shared<const int>(1);
+    });
+  });
+  begun.wait();
+  // Nothing here may wait for the other thread.
+  const auto other = numbers.of(std::make_shared<const Volume>(), {}, make(2));
+  std::stop_source stop;
+  Result<Number> cancelled;
+  std::jthread waiter([&] { cancelled = numbers.of(volume, stop.get_token(), make(3)); });
+  stop.request_stop();
+  waiter.join();
+  const auto cancelled_before = numbers.of(volume, stop.get_token(), make(4));
+  may_end.count_down();
+  const auto waited = numbers.of(volume, {}, make(5));
+  maker.join();
+  QCOMPARE(failure(other), QString());
+  QCOMPARE(**other, 2);
+  QVERIFY(!cancelled && cancelled.error().kind == ErrorKind::cancelled);
+  QVERIFY(!cancelled_before && cancelled_before.error().kind == ErrorKind::cancelled);
+  QCOMPARE(failure(waited), QString());
+  QCOMPARE(**waited, 1);
+  QVERIFY(*waited == *slow);
+  QCOMPARE(ScaleSpace::of(two_textures(), {nullptr, stop.get_token()}).error().kind, ErrorKind::cancelled);
+}
+
+void ExamplesTest::who_waits_makes_what_was_not_made() {
+  using Number = std::shared_ptr<const int>;
+  SharedByVolume<int> numbers;
+  const auto volume = std::make_shared<const Volume>();
+  std::latch begun(1);
+  Result<Number> failed;
+  std::jthread maker([&] {
+    failed = numbers.of(volume, {}, [&]() -> Result<Number> {
+      begun.count_down();
+      return cancelled_error();
+    });
+  });
+  begun.wait();
+  const auto made = numbers.of(volume, {}, []() -> Result<Number> { return std::make_shared<const int>(7); });
+  maker.join();
+  QVERIFY(!failed && failed.error().kind == ErrorKind::cancelled);
+  QCOMPARE(failure(made), QString());
+  QCOMPARE(**made, 7);
 }
 
 TIDEMARK_TEST(ExamplesTest)

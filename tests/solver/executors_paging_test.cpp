@@ -1,6 +1,8 @@
 // What every executor with pages must do, row by row: pages that come and go (T6, T6b), that rest, and that
 // can be looked at.
 #include <algorithm>
+#include <functional>
+#include <glm/vector_relational.hpp>
 #include <random>
 
 #include "executor_rows.h"
@@ -165,6 +167,74 @@ class ExecutorsPagingTest : public QObject {
     QCOMPARE(failure(limited->paint({centre_of(geometry), 100.0}, solver::Brush::erase)), QString());
     run(*limited, 5);
     QCOMPARE(limited->memory().resident_pages, std::int64_t{0});
+  }
+
+  // With as little memory as its own pages take; what lies beside them is missing then.
+  void an_edit_is_done_or_refused_as_a_whole_data() { add_rows_with_host(); }
+  void an_edit_is_done_or_refused_as_a_whole() {
+    const Setting setting = this_row();
+    const Geometry geometry = grid({96, 96, 96});
+    const auto source = zero_volume(geometry);
+    // It ends at the last voxels of pages of any shape.
+    const solver::Sphere ball{centre_of(geometry), 29.5};
+    const auto in_box = [](glm::dvec3 p) {
+      return glm::all(glm::greaterThanEqual(p, glm::dvec3(32.0))) &&
+             glm::all(glm::lessThan(p, glm::dvec3(64.0)));
+    };
+    const auto box = solver::Field::from_dense(
+        geometry, sample(geometry, [&](glm::dvec3 p) { return in_box(p) ? 0.5 : -100.0; }), 2.5);
+    auto anchors = std::make_shared<solver::Constraints>(geometry.size);
+    anchors->set(box.mask(), solver::Constraint::anchor);
+    auto walls = std::make_shared<solver::Constraints>(geometry.size);
+    walls->set(geometry, {centre_of(geometry), 2.0}, solver::Constraint::wall);
+    struct Edit {
+      const char* name;
+      std::function<Status(solver::Executor&)> make;
+    };
+    const Edit edits[] = {
+        {"paint", [&](solver::Executor& level_set) { return level_set.paint(ball, solver::Brush::add); }},
+        {"paint around walls",
+         [&](solver::Executor& level_set) -> Status {
+           TIDEMARK_TRY(level_set.set_constraints(walls));
+           return level_set.paint(ball, solver::Brush::add);
+         }},
+        {"restore", [&](solver::Executor& level_set) { return level_set.restore(box); }},
+        {"anchors", [&](solver::Executor& level_set) { return level_set.set_constraints(anchors); }}};
+    for (const Edit& edit : edits) {
+      const auto free = setting.make(source, solver::Parameters());
+      const std::vector<float> before = free->snapshot().value().dense();
+      QCOMPARE(failure(edit.make(*free)), QString());
+      const std::vector<float> after = free->snapshot().value().dense();
+      QVERIFY(after != before);
+      // The least memory that holds it, to less than a page of the host's.
+      std::unique_ptr<solver::Executor> least;
+      std::int64_t too_small = 0;
+      std::int64_t enough = 8 << 20;
+      while (enough - too_small > 4096) {
+        solver::ExecutorOptions options = setting.options();
+        options.memory_budget_bytes = (too_small + enough) / 2;
+        auto made = solver::make_executor(setting.kind, source, solver::Parameters(), options);
+        const bool is_done = made && edit.make(**made);
+        if (made) {
+          const std::vector<float> there = (*made)->snapshot().value().dense();
+          QVERIFY2(there == (is_done ? after : before), edit.name);
+        }
+        (is_done ? enough : too_small) = options.memory_budget_bytes;
+        if (is_done) least = std::move(*made);
+      }
+      QVERIFY2(least != nullptr, edit.name);
+      const auto refused = least->advance({});
+      QVERIFY2(!refused, edit.name);
+      QCOMPARE(refused.error().kind, ErrorKind::capability);
+      QCOMPARE(least->steps_of_last_run(), std::int64_t{0});
+      QVERIFY2(least->snapshot().value().dense() == after, edit.name);
+      // It goes on when the surface needs less.
+      if (edit.name == std::string("anchors")) continue;  // which nothing erases
+      QCOMPARE(failure(least->paint({centre_of(geometry), 100.0}, solver::Brush::erase)), QString());
+      run(*least, 5);
+      QCOMPARE(least->memory().resident_pages, std::int64_t{0});
+      QCOMPARE(failure(least->validate()), QString());
+    }
   }
 
   void memory_follows_the_surface_data() { add_rows_with_host(); }

@@ -1,6 +1,7 @@
 // The voxels where a speed function lets the surface grow.
 #include "solver/speed/growing_region.h"
 
+#include "solver/speed/combined_speed.h"
 #include "tests/solver/formula_speed.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -48,6 +49,24 @@ class GrowingRegionTest : public QObject {
     QCOMPARE(region.count(), growing_region(*function, grid(), {}).value().count());
     QCOMPARE(cached.memory(), before);
     QCOMPARE(function->evaluated(), 2 * grid().voxel_count());
+  }
+
+  void caches_of_joined_functions_are_not_filled() {
+    const auto first = std::make_shared<FormulaSpeed>(wave);
+    const auto second =
+        std::make_shared<FormulaSpeed>([](glm::dvec3 voxel) { return std::cos(0.2 * voxel.y); });
+    const auto cached_first = std::make_shared<CachedSpeed>(first, grid().size);
+    const auto cached_second = std::make_shared<CachedSpeed>(second, grid().size);
+    const std::int64_t before = cached_first->memory();
+    for (const Combine combine : {Combine::least, Combine::product}) {
+      const BitMask region =
+          growing_region(CombinedSpeed({cached_first, cached_second}, combine), grid(), {}).value();
+      const BitMask without = growing_region(CombinedSpeed({first, second}, combine), grid(), {}).value();
+      QVERIFY(region.count() > 1000);
+      QCOMPARE(region.count(), without.count());
+    }
+    QCOMPARE(cached_first->memory(), before);
+    QCOMPARE(cached_second->memory(), before);
   }
 
   void it_says_how_far_it_is_and_can_be_cancelled() {

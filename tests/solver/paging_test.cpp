@@ -258,6 +258,35 @@ class PagingTest : public QObject {
     }
   }
 
+  // A box of whole pages: no page has voxels on both sides of its surface.
+  void a_surface_between_pages_is_found() {
+    const Index3 page = kDefaultPageShape;
+    const Geometry geometry = grid(Index3(3) * page);
+    const auto values = sample(geometry, [&](glm::dvec3 p) {
+      return glm::all(glm::greaterThanEqual(p, glm::dvec3(page))) &&
+                     glm::all(glm::lessThan(p, glm::dvec3(2) * glm::dvec3(page)))
+                 ? 2.5
+                 : -2.5;
+    });
+    const solver::Field box = solver::Field::from_dense(geometry, values, 2.5);
+    QVERIFY(box.dense() == values);
+    solver::Parameters curvature;
+    curvature.data_term = false;
+    curvature.alpha = 1.0;
+    std::vector<std::vector<float>> after;
+    for (const auto kind : {solver::ExecutorKind::reference, solver::ExecutorKind::host}) {
+      const auto level_set = executor(kind, zero_volume(geometry), curvature);
+      QCOMPARE(failure(level_set->restore(box)), QString());
+      QVERIFY(level_set->advance({50}));
+      after.push_back(level_set->snapshot().value().dense());
+    }
+    QVERIFY(after[0] != values);
+    double largest = 0.0;
+    for (std::size_t v = 0; v < values.size(); ++v)
+      largest = std::max(largest, std::abs(double{after[0][v]} - after[1][v]));
+    QVERIFY2(largest < 1e-3, qPrintable(QString::number(largest)));
+  }
+
   void validate_finds_what_is_broken() {
     const Geometry geometry = grid({32, 32, 32});
     const auto values = sample(geometry, [&](glm::dvec3 p) {

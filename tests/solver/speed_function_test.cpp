@@ -171,6 +171,34 @@ class SpeedFunctionTest : public QObject {
     QVERIFY(with_walls - free->memory().state_bytes >= solver::Constraints::kPageVoxels);
   }
 
+  // There a velocity takes as much in each page as phi and D do.
+  void a_velocity_counts_in_the_budget_of_the_host() {
+    const Scene scene = lumpy_scene({96, 80, 64});
+    const auto free = executor(solver::ExecutorKind::host, scene.source, scene.parameters);
+    QCOMPARE(failure(free->paint(scene.seed, solver::Brush::add)), QString());
+    run(*free, 3);
+    const solver::MemoryReport memory = free->memory();
+    solver::ExecutorOptions options;
+    options.memory_budget_bytes = (memory.state_bytes + memory.source_bytes) * 3 / 2;
+    const auto tested = executor(solver::ExecutorKind::host, scene.source, scene.parameters, options);
+    QCOMPARE(failure(tested->paint(scene.seed, solver::Brush::add)), QString());
+    run(*tested, 3);
+    const auto function = lumpy_speed(false);
+    QCOMPARE(failure(tested->set_speed(function)), QString());
+    QCOMPARE(failure(free->set_speed(function)), QString());
+    const Status refused = tested->set_speed(lumpy_speed(true));
+    QVERIFY(!refused);
+    QCOMPARE(refused.error().kind, ErrorKind::capability);
+    QVERIFY(tested->speed() == function);
+    QCOMPARE(tested->time_step(), free->time_step());
+    run(*tested, 3);
+    run(*free, 3);
+    QVERIFY(tested->snapshot().value().dense() == free->snapshot().value().dense());
+    QCOMPARE(failure(tested->validate()), QString());
+    const solver::MemoryReport after = tested->memory();
+    QVERIFY(after.state_bytes + after.source_bytes <= options.memory_budget_bytes);
+  }
+
   // There is room for D where the surface is, and none for what a run needs around it.
   void a_run_that_lacks_memory_for_its_speed_loses_nothing_data() { add_rows(); }
   void a_run_that_lacks_memory_for_its_speed_loses_nothing() {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <mutex>
 
 #include "core/thread_pool.h"
 #include "core/typed_volume.h"
 #include "solver/speed/examples/index.h"
+#include "solver/speed/examples/shared_by_volume.h"
 
 namespace tidemark::solver {
 namespace {
@@ -135,13 +135,7 @@ void store(const std::vector<float>& mean, std::vector<float> square, float limi
   grid.deviation = EvenSteps(square, 0.0F, std::min(widest, limit));
 }
 
-// The pyramids in use, by their volumes. It keeps neither alive.
-struct Known {
-  std::weak_ptr<const Volume> volume;
-  std::weak_ptr<const ScaleSpace> space;
-};
-std::mutex known_mutex;
-std::vector<Known> known;
+SharedByVolume<ScaleSpace> pyramids;  // in use
 
 }  // namespace
 
@@ -158,16 +152,7 @@ EvenSteps::EvenSteps(const std::vector<float>& values, float low, float high)
 
 Result<std::shared_ptr<const ScaleSpace>> ScaleSpace::of(const std::shared_ptr<const Volume>& volume,
                                                          const Progress& progress) {
-  // Held while one is made: who asks for the same one meanwhile waits for it.
-  const std::lock_guard lock(known_mutex);
-  std::erase_if(known, [](const Known& one) { return one.volume.expired() || one.space.expired(); });
-  for (const Known& one : known) {
-    if (one.volume.lock() != volume) continue;
-    if (auto space = one.space.lock()) return space;
-  }
-  auto made = make(*volume, progress);
-  if (made) known.push_back({volume, *made});
-  return made;
+  return pyramids.of(volume, progress.stop, [&] { return make(*volume, progress); });
 }
 
 Result<std::shared_ptr<const ScaleSpace>> ScaleSpace::make(const Volume& volume, const Progress& progress) {
