@@ -36,6 +36,7 @@ Result<FileRegions> read_regions(const std::filesystem::path& file, bool labels,
     auto loaded = imaging::load_any_mask(file, wanted, progress);
     if (!loaded) return pass_on(loaded);
     regions.changes = std::move(loaded->changes);
+    regions.frames_of_reference = std::move(loaded->frames_of_reference);
     grid = loaded->mask.geometry;
     regions.list.emplace_back(std::string(), Region(loaded->mask));
     return regions;
@@ -43,6 +44,7 @@ Result<FileRegions> read_regions(const std::filesystem::path& file, bool labels,
   auto segments = read_labels(file, wanted, progress);
   if (!segments) return pass_on(segments);
   regions.changes = std::move(segments->changes);
+  regions.frames_of_reference = std::move(segments->frames_of_reference);
   grid = segments->geometry;
   for (const imaging::Segment& segment : segments->list) {
     if (progress.cancelled()) return cancelled_error();

@@ -16,7 +16,8 @@ namespace tidemark::document {
 struct FileRegions {
   std::filesystem::path file;
   std::vector<std::pair<std::string, Region>> list;
-  std::vector<std::string> changes;  // found and left out by reading, one sentence each
+  std::vector<std::string> changes;                   // found and left out by reading, one sentence each
+  std::vector<std::string> frames_of_reference = {};  // as of imaging::Segments
 
   [[nodiscard]] const Region* find(const std::string& name) const;  // null: there is none
   [[nodiscard]] Region all() const;                                 // what is inside any of them

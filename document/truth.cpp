@@ -7,16 +7,25 @@
 namespace tidemark::document {
 namespace {
 
+// By its number in a DICOM segmentation, by its place in a structure set, whose segments have none.
+bool is_meant(const imaging::Segment& segment, std::size_t place, std::int64_t label) {
+  const std::size_t number = segment.number != 0 ? segment.number : place + 1;
+  return static_cast<std::int64_t>(number) == label;
+}
+
 Result<Mask> true_segments(const std::filesystem::path& file, std::optional<std::int64_t> label,
                            const Geometry& grid) {
   auto segments = imaging::read_result(file, &grid);
   if (!segments) return pass_on(segments);
   if (label) {
-    const auto count = static_cast<std::int64_t>(segments->list.size());
-    if (*label < 1 || *label > count) {
-      return fail(ErrorKind::usage, "{}: {} has the segments 1 to {}", *label, file.string(), count);
+    std::vector<imaging::Segment> meant;
+    for (std::size_t n = 0; n < segments->list.size(); ++n) {
+      if (is_meant(segments->list[n], n, *label)) meant.push_back(std::move(segments->list[n]));
     }
-    segments->list = {segments->list[static_cast<std::size_t>(*label - 1)]};
+    if (meant.empty()) {
+      return fail(ErrorKind::usage, "{}: {} has no segment of that number", *label, file.string());
+    }
+    segments->list = std::move(meant);
   }
   return imaging::union_of(*segments);
 }

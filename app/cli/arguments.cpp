@@ -101,16 +101,12 @@ CLI::Option* add_spheres(CLI::App& app, const std::string& name, SphereUnits uni
 }
 
 Result<solver::Sphere> SphereArgument::resolve(const Geometry& geometry) const {
+  const solver::Sphere sphere{in_voxels ? geometry.to_patient(centre) : centre, radius_mm};
+  if (geometry.covers(sphere.centre_mm)) return sphere;
   const glm::dvec3 voxel = in_voxels ? centre : geometry.to_voxel(centre);
-  const glm::dvec3 size(geometry.size);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (voxel[axis] >= -0.5 && voxel[axis] <= size[axis] - 0.5) continue;
-    return fail(
-        ErrorKind::usage,
-        "{}: the centre, voxel ({:.6g}, {:.6g}, {:.6g}), is outside the volume of {} x {} x {} voxels",
-        option, voxel.x, voxel.y, voxel.z, geometry.size.x, geometry.size.y, geometry.size.z);
-  }
-  return solver::Sphere{in_voxels ? geometry.to_patient(centre) : centre, radius_mm};
+  return fail(ErrorKind::usage,
+              "{}: the centre, voxel ({:.6g}, {:.6g}, {:.6g}), is outside the volume of {} x {} x {} voxels",
+              option, voxel.x, voxel.y, voxel.z, geometry.size.x, geometry.size.y, geometry.size.z);
 }
 
 }  // namespace tidemark::cli

@@ -149,7 +149,7 @@ Status check(const CompareOptions& options, Outputs& outputs) {
   for (const std::string& file : options.files) {
     TIDEMARK_TRY(outputs.spare(file));
   }
-  return {};
+  return outputs.spare(options.grid);
 }
 
 Status run(Program& program, const CompareOptions& options) {

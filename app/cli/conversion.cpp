@@ -55,6 +55,7 @@ Status Conversion::load_source(const Progress& progress) {
   const auto chosen = find_study(source, progress);
   if (!chosen) return pass_on(chosen);
   grid_ = chosen->series.geometry;
+  frame_of_reference_uid_ = chosen->series.frame_of_reference_uid;
   source_files_ = imaging::dicom_files_of(chosen->series);
   source_archive_ = chosen->series.archive;
   return {};
@@ -68,6 +69,8 @@ Status Conversion::load_result(const Progress& progress) {
   auto segments = imaging::read_result(options_.study.path, grid_ ? &*grid_ : nullptr);
   if (!segments) return pass_on(segments);
   segments_ = std::move(*segments);
+  if (auto remark = imaging::frame_remark(segments_.frames_of_reference, frame_of_reference_uid_))
+    segments_.changes.push_back(std::move(*remark));
   return {};
 }
 

@@ -60,7 +60,8 @@ class Conversion {
   Status write_surface(const std::filesystem::path& file);
 
   ConversionOptions options_;
-  std::optional<Geometry> grid_;  // the source's
+  std::optional<Geometry> grid_;        // the source's
+  std::string frame_of_reference_uid_;  // the source's; empty where it is not known
   std::vector<std::filesystem::path> source_files_;
   std::shared_ptr<const imaging::StudyArchive> source_archive_;  // in which they lie, if they do
   std::optional<Volume> volume_;                                 // where the input is one

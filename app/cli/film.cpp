@@ -138,6 +138,7 @@ Status run(Program& program, const FilmOptions& options) {
   if (!views) return pass_on(views);
   Outputs outputs;
   TIDEMARK_TRY(outputs.announce_gif("--out", options.render.out));
+  TIDEMARK_TRY(outputs.spare(options.render.study.path));
 
   document::Recipe recipe;
   std::int64_t frames = options.frames.value_or(kFrames);

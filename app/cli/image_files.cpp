@@ -15,12 +15,13 @@ std::string name_of(const std::string& file) {
 }  // namespace
 
 Result<document::CaseImage> read_image(const std::string& file, Console& console) {
-  auto loaded = imaging::load_volume(file, {}, console.progress());
+  auto loaded = imaging::load_with_series(file, {}, console.progress());
   if (!loaded) return pass_on(loaded);
   document::CaseImage image;
   image.name = name_of(file);
-  image.checksum = document::checksum_of(*loaded);
-  image.volume = std::make_shared<const Volume>(std::move(*loaded));
+  image.frame_of_reference_uid = loaded->series.frame_of_reference_uid;
+  image.checksum = document::checksum_of(loaded->volume);
+  image.volume = std::make_shared<const Volume>(std::move(loaded->volume));
   return image;
 }
 

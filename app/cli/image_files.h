@@ -9,7 +9,7 @@
 
 namespace tidemark::cli {
 
-// On its own grid, with the file's name.
+// On its own grid, with the file's name and its frame of reference.
 Result<document::CaseImage> read_image(const std::string& file, Console& console);
 
 // On the grid of the case, too. Fails (ErrorKind::input), naming the image and perhaps the file, where it

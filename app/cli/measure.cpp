@@ -183,11 +183,17 @@ std::string csv_of(const std::vector<MeasuredRow>& rows) {
   return csv;
 }
 
+void warn_of_frame(const std::string& file, const std::vector<std::string>& named,
+                   const imaging::Series& study, Console& console) {
+  if (const auto remark = imaging::frame_remark(named, study.frame_of_reference_uid))
+    console.warn(file + ": " + *remark);
+}
+
 // The study's own values first.
-Result<std::vector<document::MeasuredImage>> images_on(const Geometry& grid, Volume study,
+Result<std::vector<document::MeasuredImage>> images_on(const Geometry& grid, imaging::LoadedSeries study,
                                                        const MeasureOptions& options, Console& console) {
   std::vector<document::MeasuredImage> images;
-  images.push_back({options.study.path, std::make_shared<const Volume>(std::move(study))});
+  images.push_back({options.study.path, std::make_shared<const Volume>(std::move(study.volume))});
   for (const std::string& file : options.images) {
     const auto image = read_image(file, console);
     if (!image) return pass_on(image);
@@ -195,6 +201,7 @@ Result<std::vector<document::MeasuredImage>> images_on(const Geometry& grid, Vol
     if (!on_case) return pass_on(on_case);
     auto voxels = document::on_grid(**on_case, grid);
     if (!voxels) return pass_on(voxels);
+    warn_of_frame(file, {image->frame_of_reference_uid}, study.series, console);
     images.push_back({file, std::move(*voxels)});
   }
   return images;
@@ -303,7 +310,8 @@ Status run(Program& program, const MeasureOptions& options) {
   const auto regions = document::read_regions(options.file, options.labels, grid, console.progress());
   if (!regions) return pass_on(regions);
   for (const std::string& change : regions->changes) console.warn(options.file + ": " + change);
-  const auto images = images_on(*grid, std::move(study->volume), options, console);
+  warn_of_frame(options.file, regions->frames_of_reference, study->series, console);
+  const auto images = images_on(*grid, std::move(*study), options, console);
   if (!images) return pass_on(images);
   const auto rows = measure_all(*regions, *grid, *images, console);
   if (!rows) return pass_on(rows);

@@ -9,6 +9,7 @@
 
 #include "app/cli/audit.h"
 #include "imaging/files/volume_file.h"
+#include "imaging/results/results.h"
 #include "imaging/surface/surface.h"
 
 namespace tidemark::cli {
@@ -97,6 +98,7 @@ Status Outputs::announce_file(const std::string& option, const std::filesystem::
   if (std::find(files_.begin(), files_.end(), whole) != files_.end()) {
     return fail(ErrorKind::usage, "{} {}: this file is asked for twice", option, file.string());
   }
+  TIDEMARK_TRY(imaging::spare_study_file(file));
   // Tried out and removed again at once: a run that is killed leaves nothing behind.
   auto trial = AtomicFile::create(file);
   if (!trial) return pass_on(trial);

@@ -17,8 +17,8 @@ enum class FileForm { volume, mesh, recipe, segmentation, level_set };
 class Outputs {
  public:
   // Announces a file. `option` is for messages; `forms` says which suffixes may be asked for. Fails with
-  // ErrorKind::usage on an unknown suffix or a file named twice, and with ErrorKind::write when the folder is
-  // missing or cannot be written to.
+  // ErrorKind::usage on an unknown suffix, a file named twice or one of a study, and with ErrorKind::write
+  // when the folder is missing or cannot be written to.
   Status announce(const std::string& option, const std::filesystem::path& file,
                   const std::vector<FileForm>& forms);
   Status announce_json(const std::string& option, const std::filesystem::path& file);

@@ -68,15 +68,27 @@ std::optional<double> seconds_of(const std::string& date, const std::string& tim
   return *day + *of_day;
 }
 
-// A DT: date and time in one. One of another time zone than the dataset's is none that can be compared.
+// "+0100" (PS3.5 6.2, DT), as seconds that it is ahead of UTC.
+std::optional<double> seconds_ahead(std::string_view zone) {
+  constexpr std::size_t kLength = 5;
+  if (zone.size() != kLength || (zone[0] != '+' && zone[0] != '-')) return std::nullopt;
+  const auto ahead = seconds_of_day(zone.substr(1));
+  if (!ahead) return std::nullopt;
+  return zone[0] == '-' ? -*ahead : *ahead;
+}
+
+// A DT: date and time in one, by the clock of the dataset's time zone. With a zone of its own it is none that
+// can be compared unless the dataset names one, too.
 std::optional<double> moment_of(const std::string& date_time, const std::string& time_zone) {
   const std::size_t zone = date_time.find_first_of("+-");
-  if (zone != std::string::npos && !time_zone.empty() && date_time.substr(zone) != time_zone) {
-    return std::nullopt;
-  }
   const std::string local = date_time.substr(0, zone);
   if (local.size() < 12) return std::nullopt;
-  return seconds_of(local.substr(0, 8), local.substr(8));
+  const auto moment = seconds_of(local.substr(0, 8), local.substr(8));
+  if (!moment || zone == std::string::npos) return moment;
+  const auto own = seconds_ahead(std::string_view(date_time).substr(zone));
+  const auto of_dataset = seconds_ahead(time_zone);
+  if (!own || !of_dataset) return std::nullopt;
+  return *moment - *own + *of_dataset;
 }
 
 void read_pet(DcmItem& dataset, QuantityHeader& quantity) {

@@ -1,5 +1,6 @@
 #include "imaging/files/volume_header.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -56,19 +57,31 @@ Result<glm::dmat3> checked_direction(const glm::dmat3& stated, const std::string
   return direction;
 }
 
-Result<Geometry> checked_geometry(const itk::ImageIOBase& io, const std::string& name) {
+// Whether ITK gives the origin as the header has it.
+bool is_origin_unscaled(const itk::ImageIOBase& io, const PixelLayout& layout) {
+  constexpr double kRounding = 1e-6;
+  const glm::dvec3 given(io.GetOrigin(0), io.GetOrigin(1), io.GetOrigin(2));
+  const auto is_given = [&](const glm::dvec3& origin) {
+    return glm::distance(given, origin) <= kRounding * glm::length(origin);
+  };
+  return layout.origins.empty() || std::any_of(layout.origins.begin(), layout.origins.end(), is_given);
+}
+
+Result<Geometry> checked_geometry(const itk::ImageIOBase& io, const PixelLayout& layout,
+                                  const std::string& name) {
   Geometry geometry;
   const auto size = checked_size(io, name);
   if (!size) return pass_on(size);
   geometry.size = *size;
+  const double origin_scale = is_origin_unscaled(io, layout) ? layout.origin_scale : 1.0;
   glm::dmat3 direction;
   for (unsigned axis = 0; axis < 3; ++axis) {
     const int a = static_cast<int>(axis);
-    geometry.spacing_mm[a] = io.GetSpacing(axis);
+    geometry.spacing_mm[a] = layout.spacing_scale * io.GetSpacing(axis);
     if (!std::isfinite(geometry.spacing_mm[a]) || geometry.spacing_mm[a] <= 0.0) {
       return fail(ErrorKind::input, "{}: spacing along axis {} is {} mm", name, axis, geometry.spacing_mm[a]);
     }
-    geometry.origin_mm[a] = io.GetOrigin(axis) + 0.0;  // never "-0"
+    geometry.origin_mm[a] = origin_scale * io.GetOrigin(axis) + 0.0;  // never "-0"
     if (!std::isfinite(geometry.origin_mm[a])) {
       return fail(ErrorKind::input, "{}: origin along axis {} is {} mm", name, axis, geometry.origin_mm[a]);
     }
@@ -102,7 +115,7 @@ Result<VolumeHeader> check_header(const std::filesystem::path& file) {
   try {
     const auto io = make_image_io(format, name_for_itk->path());
     io->ReadImageInformation();
-    auto geometry = checked_geometry(*io, name);
+    auto geometry = checked_geometry(*io, header.layout, name);
     if (!geometry) return pass_on(geometry);
     header.geometry = *geometry;
     TIDEMARK_TRY(require_single_numbers(*io, name));

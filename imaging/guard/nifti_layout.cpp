@@ -144,6 +144,19 @@ Status check_geometry(const Fields& header, const std::string& name) {
   return sform ? check_sform(header, name) : Status();
 }
 
+// Of lengths, by the bits of xyzt_units that are about space; unknown ones are mm.
+double nifti_unit_in_mm(const Fields& header) {
+  constexpr unsigned kSpace = 7;
+  switch (header.read<unsigned char>(123) & kSpace) {
+    case 1:
+      return 1e3;
+    case 3:
+      return 1e-3;
+    default:
+      return 1.0;
+  }
+}
+
 // A qform's rotation, from its quaternion (nifti1.h, method 2), times spacing and qfac.
 glm::dmat3 qform_axes(const Fields& header) {
   const double b = header.read<float>(256);
@@ -181,9 +194,22 @@ void compare_orientations(const Fields& header, PixelLayout& layout) {
       worst = std::max(worst, std::abs(q[r] + q_offset - s[r] - s_offset));
     }
   }
+  worst *= nifti_unit_in_mm(header);
   if (worst > 0.1) {
     layout.warnings.push_back(fmt::format("qform and sform place voxels up to {:.1f} mm apart", worst));
   }
+}
+
+void take_nifti_unit(const Fields& header, PixelLayout& layout) {
+  layout.origin_scale = nifti_unit_in_mm(header);
+  if (layout.origin_scale == 1.0) return;
+  const auto take = [&](std::size_t code, std::size_t offset, std::size_t step) {
+    if (header.read<std::int16_t>(code) <= 0) return;
+    const auto along = [&](std::size_t axis) -> double { return header.read<float>(offset + step * axis); };
+    layout.origins.emplace_back(-along(0), -along(1), along(2));  // from RAS to LPS
+  };
+  take(252, 268, 4);        // the qform's
+  take(254, 280 + 12, 16);  // the sform's
 }
 
 }  // namespace
@@ -237,6 +263,7 @@ Result<PixelLayout> locate_nifti(const std::filesystem::path& file) {
   layout.swapped = header.swapped();
   layout.slope = scaled ? slope : 1.0;
   layout.intercept = scaled && !std::isnan(intercept) ? intercept : 0.0;
+  take_nifti_unit(header, layout);
   compare_orientations(header, layout);
   return layout;
 }

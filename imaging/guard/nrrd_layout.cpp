@@ -1,5 +1,7 @@
 // The NRRD header: lines "field: value" up to an empty one (http://teem.sourceforge.net/nrrd/format.html).
+#include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
@@ -111,6 +113,44 @@ Status choose_coding(const TextHeader& header, const std::string& name, PixelLay
   return {};
 }
 
+std::optional<double> nrrd_unit_in_mm(std::string word) {
+  static const std::map<std::string, double> kUnits = {
+      {"m", 1e3},           {"meter", 1e3},       {"metre", 1e3},       {"cm", 10.0},
+      {"centimeter", 10.0}, {"centimetre", 10.0}, {"mm", 1.0},          {"millimeter", 1.0},
+      {"millimetre", 1.0},  {"um", 1e-3},         {"\u00b5m", 1e-3},  // the micro sign
+      {"\u03bcm", 1e-3},                                              // the Greek letter
+      {"micron", 1e-3},     {"micrometer", 1e-3}, {"micrometre", 1e-3}, {"nm", 1e-6},
+      {"nanometer", 1e-6},  {"nanometre", 1e-6}};
+  word = lower(std::move(word));
+  if (word.size() > 3 && word.back() == 's') word.pop_back();
+  const auto found = kUnits.find(word);
+  if (found == kUnits.end()) return std::nullopt;
+  return found->second;
+}
+
+// By "space units", a word in quotation marks for each axis of the space; an empty one says nothing.
+Status take_nrrd_unit(const TextHeader& header, const std::string& name, PixelLayout& layout) {
+  const std::string stated = header.find("space units").value_or("");
+  std::optional<double> common;
+  for (std::size_t begin = stated.find('"'); begin != std::string::npos;) {
+    const std::size_t end = std::min(stated.find('"', begin + 1), stated.size());
+    const std::string word = stated.substr(begin + 1, end - begin - 1);
+    begin = stated.find('"', end + 1);
+    if (word.empty()) continue;
+    const auto unit = nrrd_unit_in_mm(word);
+    if (!unit) {
+      layout.warnings.push_back(
+          fmt::format("space units '{}' are not known; lengths are read as mm", word.substr(0, 80)));
+      return {};
+    }
+    if (common.value_or(*unit) != *unit)
+      return fail(ErrorKind::input, "{}: space units: {} are not the same for all axes", name, stated);
+    common = unit;
+  }
+  layout.spacing_scale = layout.origin_scale = common.value_or(1.0);
+  return {};
+}
+
 }  // namespace
 
 Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
@@ -122,6 +162,7 @@ Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
   TIDEMARK_TRY(choose_coding(*header, name, layout));
   TIDEMARK_TRY(choose_byte_order(*header, name, layout));
   TIDEMARK_TRY(require_finite_fields(*header, file, {"space directions", "space origin", "spacings"}));
+  TIDEMARK_TRY(take_nrrd_unit(*header, name, layout));
   auto data = header->find("data file");
   if (!data) data = header->find("datafile");
   if (data) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -30,6 +31,13 @@ struct PixelLayout {
   double slope = 1.0;    // a voxel's value is slope * stored + intercept
   double intercept = 0.0;
   bool oriented = true;  // the header says how the axes lie in the patient
+  // What makes mm of the lengths that ITK gives: it scales the spacing of a NIfTI header in another unit, and
+  // nothing of such an NRRD header.
+  double spacing_scale = 1.0;
+  double origin_scale = 1.0;
+  // Of such a NIfTI file the origins in the header's unit (LPS): an origin that ITK gives and that is none of
+  // these is in mm.
+  std::vector<glm::dvec3> origins = {};
   std::vector<std::string> warnings = {};
 };
 

@@ -19,14 +19,6 @@ namespace {
 // The part of the work that makes both pyramids.
 constexpr double kPyramidsPart = 0.1;
 
-bool holds(const Geometry& grid, glm::dvec3 patient_mm) {
-  const glm::dvec3 voxel = grid.to_voxel(patient_mm);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (voxel[axis] < -0.5 || voxel[axis] > static_cast<double>(grid.size[axis]) - 0.5) return false;
-  }
-  return true;
-}
-
 // Where the search begins, from the fixed image to the moving one.
 glm::dmat4 first_guess(const Geometry& moving, const Geometry& fixed, const glm::dmat4& start) {
   const glm::dmat4 to_moving = glm::inverse(start);
@@ -34,7 +26,7 @@ glm::dmat4 first_guess(const Geometry& moving, const Geometry& fixed, const glm:
   const glm::dvec3 of_fixed = registration::centre_mm(fixed);
   const glm::dvec3 there(to_moving * glm::dvec4(of_fixed, 1.0));
   const glm::dvec3 here(start * glm::dvec4(of_moving, 1.0));
-  if (holds(moving, there) || holds(fixed, here)) return to_moving;
+  if (moving.covers(there) || fixed.covers(here)) return to_moving;
   glm::dmat4 centred = to_moving;
   centred[3] += glm::dvec4(of_moving - there, 0.0);
   return centred;

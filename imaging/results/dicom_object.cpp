@@ -55,15 +55,29 @@ Status require_planes(const Geometry& geometry, const fs::path& file) {
   return {};
 }
 
-std::optional<ResultForm> result_form_of(const fs::path& file) {
-  // The SOP class is among the first attributes; the patient's come after it.
-  constexpr DicomTag kPatientName{0x0010, 0x0010};
+std::string sop_class_of(const fs::path& file) {
+  constexpr DicomTag kPatientName{0x0010, 0x0010};  // comes after the SOP class
   const auto object = load_object(file, kPatientName);
-  if (!object) return std::nullopt;
-  const std::string sop_class = element_text(object->dataset(), DCM_SOPClassUID);
+  return object ? element_text(object->dataset(), DCM_SOPClassUID) : std::string();
+}
+
+std::optional<ResultForm> result_form_of(const fs::path& file) {
+  const std::string sop_class = sop_class_of(file);
   if (sop_class == UID_SegmentationStorage) return ResultForm::segmentation;
   if (sop_class == UID_RTStructureSetStorage) return ResultForm::structure_set;
   return std::nullopt;
+}
+
+Status spare_study_file(const fs::path& file) {
+  constexpr const char* kReports =
+      "1.2.840.10008.5.1.4.1.1.88.";  // structured, and selections of key objects
+  const std::string sop_class = sop_class_of(file);
+  if (sop_class.empty() || sop_class == UID_SegmentationStorage || sop_class == UID_RTStructureSetStorage ||
+      sop_class == UID_GrayscaleSoftcopyPresentationStateStorage || sop_class.starts_with(kReports))
+    return {};
+  return fail(ErrorKind::usage,
+              "{}: is a file of a study, which is never written to; choose another name for the result",
+              file.string());
 }
 
 std::string study_uid_of(const fs::path& file) {

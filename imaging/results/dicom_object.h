@@ -25,6 +25,9 @@ Result<ParsedDicom> load_object(const std::filesystem::path& file, std::optional
 // The same of a whole file with results, whose voxels will be used: audited (AuditEvent::Kind::imported).
 Result<ParsedDicom> load_result(const std::filesystem::path& file);
 
+// SOPClassUID (0008,0016); empty where it cannot be read.
+[[nodiscard]] std::string sop_class_of(const std::filesystem::path& file);
+
 // Calls visit(item), which returns a Status, for each item of a sequence until one fails; for none where it
 // is absent. Asked for an item by its number, DCMTK would count from the first one each time.
 template <class Visit>

@@ -156,22 +156,16 @@ Result<Volume> read_parameters(const fs::path& file, float empty) {
   return volume;
 }
 
-std::string class_of(const fs::path& file) {
-  constexpr DicomTag kPatientName{0x0010, 0x0010};  // comes after the SOP class
-  const auto object = load_object(file, kPatientName);
-  return object ? element_text(object->dataset(), DCM_SOPClassUID) : std::string();
-}
-
 }  // namespace
 
 bool holds_map(const fs::path& file) {
-  const std::string sop_class = class_of(file);
+  const std::string sop_class = sop_class_of(file);
   return sop_class == UID_ParametricMapStorage || sop_class == UID_SegmentationStorage;
 }
 
 Result<Volume> read_map(const fs::path& file, float empty) {
   return guarded(file, [&]() -> Result<Volume> {
-    if (class_of(file) == UID_ParametricMapStorage) return read_parameters(file, empty);
+    if (sop_class_of(file) == UID_ParametricMapStorage) return read_parameters(file, empty);
     return read_fractions(file, empty);
   });
 }

@@ -27,7 +27,7 @@ Status SegmentationReader::fill(std::size_t index, Segments& segments) {
   const auto map = map_frame(frame, grid, object_.file().string());
   if (!map) return pass_on(map);
   TIDEMARK_TRY(object_.pixels().go_to(static_cast<std::int64_t>(index)));
-  auto& slices = segments.list[frame.segment - 1U].slices;
+  auto& slices = segments.list[object_.segment_of(frame)].slices;
   for (std::int64_t r = 0; r < object_.format().rows; ++r) {
     for (std::int64_t c = 0; c < object_.format().columns; ++c) {
       if (!object_.pixels().is_inside(r, c)) continue;
@@ -57,6 +57,8 @@ Result<Segments> SegmentationReader::read(const Geometry* grid) {
     segments.geometry = *own;
   }
   segments.list = object_.segments();
+  if (const std::string& frame = object_.frame_of_reference_uid(); !frame.empty())
+    segments.frames_of_reference = {frame};
   for (std::size_t index = 0; index < object_.frames().frames.size(); ++index) {
     TIDEMARK_TRY(fill(index, segments));
   }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <map>
+#include <set>
 
 #include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/decimal.h"
@@ -195,6 +196,16 @@ std::map<std::string, std::string> read_names(DcmDataset& dataset) {
   return names;
 }
 
+std::vector<std::string> read_frames_of_reference(DcmDataset& dataset) {
+  std::set<std::string> frames;
+  static_cast<void>(for_each_item(dataset, DCM_StructureSetROISequence, [&](DcmItem& region) -> Status {
+    frames.insert(element_text(region, DCM_ReferencedFrameOfReferenceUID));
+    return {};
+  }));
+  frames.erase(std::string());
+  return {frames.begin(), frames.end()};
+}
+
 void say_what_is_missing(const RegionFiller& filler, const std::string& name, Segments& segments) {
   if (filler.reaches_beyond()) {
     segments.changes.push_back(fmt::format("{}: what lies beyond the volume is left out", name));
@@ -213,7 +224,7 @@ Result<Segments> read(const fs::path& file, const Geometry& grid) {
     return fail(ErrorKind::input, "{}: is no RT structure set", file.string());
   }
   const auto names = read_names(dataset);
-  Segments segments{grid, {}, {}};
+  Segments segments{grid, {}, {}, read_frames_of_reference(dataset)};
   SliceBudget budget(file);
   Status filled = for_each_item(dataset, DCM_ROIContourSequence, [&](DcmItem& region) -> Status {
     if (segments.list.size() == kMostRegions) {

@@ -16,6 +16,10 @@ enum class ResultForm { segmentation, structure_set };
 // The kind of a DICOM file by its SOP class; nothing when it is neither or cannot be read.
 [[nodiscard]] std::optional<ResultForm> result_form_of(const std::filesystem::path& file);
 
+// Fails (ErrorKind::usage) where the file is a DICOM object of a class that no result here has, such as an
+// image: studies are never written to, whatever a result is to be called.
+[[nodiscard]] Status spare_study_file(const std::filesystem::path& file);
+
 // StudyInstanceUID (0020,000D) of any DICOM file; empty when it has none or cannot be read.
 [[nodiscard]] std::string study_uid_of(const std::filesystem::path& file);
 
@@ -49,6 +53,11 @@ Result<Segments> read_structure_set(const std::filesystem::path& file, const Geo
 // Either of them; a structure set needs the grid.
 Result<Segments> read_result(const std::filesystem::path& file, const Geometry* grid);
 
+// A sentence for users where results, or an image, name a frame of reference that is not the study's; none
+// where either is not known.
+[[nodiscard]] std::optional<std::string> frame_remark(std::span<const std::string> named,
+                                                      const std::string& of_study);
+
 // Whether the file is a parametric map or a segmentation, by its SOP class.
 [[nodiscard]] bool holds_map(const std::filesystem::path& file);
 
@@ -63,7 +72,8 @@ Result<Volume> read_map(const std::filesystem::path& file, float empty = 0.0F);
 // not. Fails (ErrorKind::input) naming the file and why it does not fit.
 struct LoadedMask {
   Mask mask;
-  std::vector<std::string> changes;  // left out by reading, one sentence each
+  std::vector<std::string> changes;                   // left out by reading, one sentence each
+  std::vector<std::string> frames_of_reference = {};  // as of Segments
 };
 Result<LoadedMask> load_any_mask(const std::filesystem::path& file, const Geometry* grid,
                                  const Progress& progress = {});

@@ -94,19 +94,35 @@ Status SegmentationFile::load() {
     return refuse(
         fmt::format("SegmentationType (0062,0001) is '{}', not BINARY or FRACTIONAL", type.substr(0, 80)));
   }
+  frame_of_reference_uid_ = element_text(dataset, DCM_FrameOfReferenceUID);
   TIDEMARK_TRY(find_pixels(dataset));
   TIDEMARK_TRY(read_segments(dataset));
   return read_frames(dataset);
 }
 
+// Frames name their segment by a number that may be another than its place (PS3.3 C.8.20.2).
+Status SegmentationFile::read_number(DcmItem& described, Segment& segment) {
+  const std::size_t item = list_.size() + 1;
+  if (described.findAndGetUint16(DCM_SegmentNumber, segment.number).bad() || segment.number == 0) {
+    return refuse(fmt::format("SegmentNumber (0062,0004) of segment {} is missing or 0", item));
+  }
+  if (!places_.try_emplace(segment.number, list_.size()).second) {
+    return refuse(fmt::format("SegmentNumber (0062,0004) of segment {} is {}, as of an earlier one", item,
+                              segment.number));
+  }
+  return {};
+}
+
 Status SegmentationFile::read_segments(DcmDataset& dataset) {
+  DcmSequenceOfItems* all = nullptr;
+  if (dataset.findAndGetSequence(DCM_SegmentSequence, all).good() && all->card() > kMostSegments) {
+    return refuse(fmt::format("SegmentSequence (0062,0002) holds more than {} segments", kMostSegments));
+  }
   return for_each_item(dataset, DCM_SegmentSequence, [&](DcmItem& described) -> Status {
-    if (list_.size() == kMostSegments) {
-      return refuse(fmt::format("SegmentSequence (0062,0002) holds more than {} segments", kMostSegments));
-    }
     Segment segment;
+    TIDEMARK_TRY(read_number(described, segment));
     segment.name = element_text(described, DCM_SegmentLabel);
-    if (segment.name.empty()) segment.name = fmt::format("Segment {}", list_.size() + 1);
+    if (segment.name.empty()) segment.name = fmt::format("Segment {}", segment.number);
     segment.colour = segment_colour(described);
     segment.meaning = {code_of(described, DCM_SegmentedPropertyCategoryCodeSequence),
                        code_of(described, DCM_SegmentedPropertyTypeCodeSequence)};
@@ -123,7 +139,7 @@ Status SegmentationFile::read_frames(DcmDataset& dataset) {
   for (std::size_t n = 0; n < count; ++n) {
     const auto segment = frames_.groups[n].segment;
     if (!segment) return refuse(fmt::format("frame {}: its segment is missing or cannot be read", n + 1));
-    if (*segment < 1 || *segment > list_.size()) {
+    if (!places_.contains(*segment)) {
       return refuse(fmt::format("frame {}: it belongs to a segment that is not described", n + 1));
     }
   }

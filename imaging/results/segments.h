@@ -23,6 +23,7 @@ struct Segment {
   std::string name;                     // UTF-8
   std::optional<SegmentColour> colour;  // unset: chosen by the viewer
   SegmentMeaning meaning;
+  std::uint16_t number = 0;  // SegmentNumber (0062,0004) in a DICOM segmentation; else 0
   // The slices k in which it has voxels: 1 inside, 0 outside, size.x * size.y of them, i fastest.
   std::map<std::int64_t, std::vector<std::uint8_t>> slices;
   // Where there is one, its level set on the same grid (> 0 inside): contours follow it between voxels.
@@ -35,6 +36,8 @@ struct Segments {
   Geometry geometry;
   std::vector<Segment> list;
   std::vector<std::string> changes;  // found and left out by reading, one sentence each
+  // The UIDs that a DICOM file names, each once: its places are the study's where these are.
+  std::vector<std::string> frames_of_reference = {};
 };
 
 // The slices of the voxels that hold `id` (a mask's hold 1). `voxels` are in voxel order.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <optional>
@@ -37,11 +38,14 @@ struct KeyImage {
   [[nodiscard]] bool has_place() const {
     return header.position_mm && header.orientation && header.pixel_spacing_mm && header.tiles == 1;
   }
-  // Column and row, from 1 at the middle of the first pixel (PS3.3 C.10.5.1.2); it has a place.
+  // Column and row, from 0 at the outer corner of the first pixel to the image's size at that of the last
+  // one, which no annotation may leave (PS3.3 Table C.10-5); it has a place.
   [[nodiscard]] glm::dvec2 pixel_at(glm::dvec3 place_mm) const {
     const glm::dvec3 way = place_mm - *header.position_mm;
     const auto& [along_row, along_column] = *header.orientation;
-    return glm::dvec2(glm::dot(way, along_row), glm::dot(way, along_column)) / *header.pixel_spacing_mm + 1.0;
+    const glm::dvec2 from_first =
+        glm::dvec2(glm::dot(way, along_row), glm::dot(way, along_column)) / *header.pixel_spacing_mm;
+    return glm::clamp(from_first + 0.5, glm::dvec2(0.0), glm::dvec2(header.frame_columns, header.frame_rows));
   }
 };
 

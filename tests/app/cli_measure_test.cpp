@@ -6,6 +6,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "core/atomic_file.h"
+#include "imaging/dicom/dicom.h"
 #include "imaging/files/volume_file.h"
 #include "tests/app/cli_runner.h"
 #include "tests/support/grid.h"
@@ -168,6 +169,34 @@ class CliMeasureTest : public QObject {
     QVERIFY(near(change["sum_mm"], is) && near(change["sum_before_mm"], was));
     const Outcome said = must_run({"measure", study, second, "--labels", "--before", before});
     QVERIFY2(said.out.contains("-50.0 %") && said.out.contains("new"), said.told());
+  }
+
+  void another_frame_of_reference_is_warned_of() {
+    for (const char* name : {"ct", "other"})
+      QCOMPARE(failure(imaging::write_dicom_series(ramp(grid_), {}, folder_ / name)), QString());
+    const QString ct = text(folder_ / "ct");
+    const QString other = text(folder_ / "other");
+    const QString labels = write("labels", map_of(grid_, {{{2, 2, 2}, {9, 9, 9}, 3}}));
+    const QString back = text(folder_ / "back.nrrd");
+    const auto told_of = [](const QString& file) {
+      return (file + ": it names another frame of reference than the study").toUtf8();
+    };
+    must_run({"convert", labels, "--labels", "--source", ct, "--out", text(folder_ / "seg.dcm"), "--rtstruct",
+              text(folder_ / "set.dcm")});
+    for (const char* name : {"seg.dcm", "set.dcm"}) {
+      const QString result = text(folder_ / name);
+      for (const QStringList& how : {QStringList{}, QStringList{"--labels"}}) {
+        const Outcome same = must_run(QStringList{"measure", ct, result, "--image", other} + how);
+        QVERIFY2(!same.err.contains(told_of(result)) && same.err.contains(told_of(other)), same.told());
+        const Outcome differs = must_run(QStringList{"measure", other, result, "--image", other} + how);
+        QVERIFY2(differs.err.contains(told_of(result)) && !differs.err.contains(told_of(other)),
+                 differs.told());
+      }
+      const Outcome kept = must_run({"convert", result, "--source", ct, "--out", back});
+      QVERIFY2(!kept.out.contains("frame of reference"), kept.told());
+      const Outcome moved = must_run({"convert", result, "--source", other, "--out", back});
+      QVERIFY2(moved.out.contains("another frame of reference than the study"), moved.told());
+    }
   }
 
   void what_does_not_fit_ends_with_one_line() {

@@ -27,6 +27,7 @@ class CliResultsTest : public QObject {
   void a_structure_set_needs_its_study();
   void wrong_usage_is_told_data();
   void wrong_usage_is_told();
+  void a_study_is_never_written_to();
   void a_full_disk_keeps_the_older_results_data();
   void a_full_disk_keeps_the_older_results();
   void a_kill_leaves_the_old_file_or_the_new_one();
@@ -203,6 +204,32 @@ void CliResultsTest::wrong_usage_is_told() {
   QCOMPARE(outcome.code, 2);
   QVERIFY2(outcome.err.contains(names), outcome.told());
   QCOMPARE(names_in(folder_->path()), QStringList{"mask.nrrd"});
+}
+
+// By whatever file of it the study was named. What a command has written before is no study.
+void CliResultsTest::a_study_is_never_written_to() {
+  write_series();
+  const QStringList slices = names_in(*folder_ / "series");
+  const QString slice = text(*folder_ / "series" / slices[3].toStdString());
+  const QByteArray before = bytes_of(slice.toStdString());
+  const auto segment = [&](const QString& input, const QString& out) {
+    return run_cli(QStringList{"segment", input, "--steps", "2", "--out", out} + ball_arguments(Index3(24)));
+  };
+  const QString result = text(*folder_ / "series" / "seg.dcm");
+  for (int turn = 0; turn < 2; ++turn) QCOMPARE(segment(path("series"), result).code, 0);
+  const QString other = text(*folder_ / "series" / slices[5].toStdString());
+  for (const Outcome& outcome :
+       {segment(path("series"), slice), segment(other, slice),
+        run_cli({"convert", path("series"), "--mask", "--out", path("mask.nrrd"), "--rtstruct", slice}),
+        run_cli({"measure", path("series"), result, "--labels", "--report", slice})}) {
+    QVERIFY2(outcome.failed_in_one_line(2) && outcome.err.contains("never written to"), outcome.told());
+  }
+  QCOMPARE(bytes_of(slice.toStdString()), before);
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(24), 8.0), *folder_ / "ball.nrrd")), QString());
+  const Outcome onto_grid =
+      run_cli({"compare", result, result, "--grid", path("ball.nrrd"), "--staple", path("ball.nrrd")});
+  QVERIFY2(onto_grid.failed_in_one_line(2) && onto_grid.err.contains("read and written at once"),
+           onto_grid.told());
 }
 
 void CliResultsTest::a_full_disk_keeps_the_older_results_data() {

@@ -148,6 +148,21 @@ class DicomQuantityTest : public QObject {
     row("injected at a date and time", factor(5400.5), [](DcmDataset& d) {
       tracer_of(d).putAndInsertString(DCM_RadiopharmaceuticalStartDateTime, "20240315085959.5");
     });
+    // By the dataset's clock, where both zones are known; else (0018,1072) counts, which is that clock's.
+    const auto row_of_zones = [&](const char* name, double expected, const char* moment, const char* zone) {
+      row(name, expected, [=](DcmDataset& d) {
+        tracer_of(d).putAndInsertString(DCM_RadiopharmaceuticalStartDateTime, moment);
+        if (*zone != '\0') d.putAndInsertString(DCM_TimezoneOffsetFromUTC, zone);
+      });
+    };
+    row_of_zones("injected in the dataset's zone", factor(5400.5), "20240315085959.5+0100", "+0100");
+    row_of_zones("injected in a zone to the east", factor(5400.5), "20240315132959.5+0530", "+0100");
+    row_of_zones("injected in a zone where it is yesterday", factor(7200.0), "20240314220000-0930", "+0100");
+    row_of_zones("injected without a zone, which the dataset has", factor(5400.5), "20240315085959.5",
+                 "+0100");
+    row_of_zones("injected in a zone, and the dataset has none", factor(3600.0), "20240315085959.5+0100", "");
+    row_of_zones("injected in a zone that makes no sense", factor(3600.0), "20240315085959.5+1", "+0100");
+    row_of_zones("a dataset's zone that makes no sense", factor(3600.0), "20240315085959.5+0100", "CET");
     row("injected before midnight", factor(3600.0), [](DcmDataset& d) {
       d.putAndInsertString(DCM_SeriesTime, "003000");
       tracer_of(d).putAndInsertString(DCM_RadiopharmaceuticalStartTime, "233000");
@@ -194,6 +209,10 @@ class DicomQuantityTest : public QObject {
     row("RadionuclideHalfLife (0018,1075) is 0 s", set_tracer(DCM_RadionuclideHalfLife, "0"));
     row("RadiopharmaceuticalStartTime (0018,1072) is missing",
         set_tracer(DCM_RadiopharmaceuticalStartTime, "93"));
+    row("RadiopharmaceuticalStartTime (0018,1072) is missing or", [](DcmDataset& d) {
+      tracer_of(d).putAndInsertString(DCM_RadiopharmaceuticalStartDateTime, "20240315093000+0100");
+      tracer_of(d).findAndDeleteElement(DCM_RadiopharmaceuticalStartTime);
+    });
     row("RadiopharmaceuticalStartDateTime (0018,1078) is later",
         set_tracer(DCM_RadiopharmaceuticalStartDateTime, "20240316093000"));
     row("RadiopharmaceuticalStartDateTime (0018,1078) is 8785.0 hours",

@@ -149,6 +149,13 @@ class BadNiftiTest : public QObject {
     QCOMPARE(turned->warnings.size(), std::size_t{1});
     QVERIFY2(turned->warnings[0].find("qform and sform place voxels up to 2.0 mm apart") == 0,
              turned->warnings[0].c_str());
+    // In micrometres that is next to nothing.
+    put(folder / "v.nii", nifti([](NiftiHeader& header) {
+          header.set<std::int16_t>(252, 1).set<float>(256, 1.0F).set<char>(123, 3);
+        }));
+    const auto tiny = imaging::scan_volume_file(folder / "v.nii");
+    QVERIFY2(tiny->loadable, tiny->reason.c_str());
+    QVERIFY(tiny->warnings.empty());
   }
 };
 

@@ -6,7 +6,9 @@
 #include <clocale>
 #include <cmath>
 #include <csignal>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "imaging/files/volume_file.h"
 #include "tests/support/support.h"
@@ -198,6 +200,73 @@ class VolumeFileTest : public QObject {
     header.set<float>(280 + 12, 0.0F);
     put(folder / "v.nii", header.bytes() + std::string(128, '\1'));
     QVERIFY(!std::signbit(read(folder / "v.nii").geometry.origin_mm.x));
+  }
+
+  // The unit is in xyzt_units, beside that of time, and counts for the spacing and for either origin.
+  void nifti_in_another_unit_is_read_in_mm_data() {
+    QTest::addColumn<int>("units");
+    QTest::addColumn<double>("mm");
+    QTest::newRow("metres") << 1 << 1000.0;
+    QTest::newRow("metres, and seconds") << (1 | 8) << 1000.0;
+    QTest::newRow("micrometres") << 3 << 0.001;
+    QTest::newRow("millimetres") << 2 << 1.0;
+    QTest::newRow("unknown") << 0 << 1.0;
+  }
+  void nifti_in_another_unit_is_read_in_mm() {
+    QFETCH(int, units);
+    QFETCH(double, mm);
+    const TemporaryFolder folder;
+    const glm::dvec3 origin(10.0, 20.0, 30.0);
+    for (const bool by_qform : {true, false}) {
+      if (!by_qform && mm == 1000.0) continue;  // ITK refuses axes as short as some thousandths
+      NiftiHeader header({4, 4, 4}, 4, 16);
+      header.set<char>(123, static_cast<char>(units));
+      header.set<std::int16_t>(252, by_qform ? 1 : 0).set<std::int16_t>(254, by_qform ? 0 : 1);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto spacing = static_cast<float>(2.0 / mm);
+        const auto offset = static_cast<float>(origin[static_cast<int>(axis)] / mm);
+        header.set<float>(80 + 4 * axis, spacing).set<float>(280 + 20 * axis, spacing);
+        header.set<float>(by_qform ? 268 + 4 * axis : 292 + 16 * axis, offset);
+      }
+      put(folder / "v.nii", header.bytes() + std::string(128, '\1'));
+      const Geometry read_grid = read(folder / "v.nii").geometry;
+      QVERIFY(glm::distance(read_grid.spacing_mm, glm::dvec3(2.0)) < 1e-5);
+      QVERIFY(glm::distance(read_grid.to_patient({0, 0, 0}), glm::dvec3(-10, -20, 30)) < 1e-4);
+      QVERIFY(glm::distance(read_grid.to_patient({1, 2, 3}), glm::dvec3(-12, -24, 36)) < 1e-4);
+    }
+  }
+
+  void nrrd_in_another_unit_is_read_in_mm() {
+    const TemporaryFolder folder;
+    const auto header = [](double mm, const std::string& units) {
+      const double x = 1.0 / mm;
+      return fmt::format(
+          "NRRD0005\ntype: uchar\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 2 2\n"
+          "space directions: ({},0,0) (0,{},0) (0,0,{})\nencoding: raw\nspace units: {}\n"
+          "space origin: ({},{},{})\n\nabcdefgh",
+          2 * x, 2 * x, 3 * x, units, -10 * x, 20 * x, 30 * x);
+    };
+    const auto all = [](const char* word) { return fmt::format("\"{0}\" \"{0}\" \"{0}\"", word); };
+    for (const auto& [word, mm] : {std::pair("mm", 1.0), std::pair("um", 0.001), std::pair("\u00b5m", 0.001),
+                                   std::pair("microns", 0.001), std::pair("cm", 10.0), std::pair("m", 1000.0),
+                                   std::pair("", 1.0), std::pair("furlong", 1.0)}) {
+      put(folder / "v.nrrd", header(mm, all(word)));
+      const Volume volume = read(folder / "v.nrrd");
+      QVERIFY2(glm::distance(volume.geometry.spacing_mm, glm::dvec3(2, 2, 3)) < 1e-9, word);
+      QVERIFY2(glm::distance(volume.geometry.origin_mm, glm::dvec3(-10, 20, 30)) < 1e-9, word);
+      const auto series = imaging::scan_volume_file(folder / "v.nrrd");
+      QCOMPARE(failure(series), QString());
+      const bool is_known = std::string(word) != "furlong";
+      QCOMPARE(series->warnings.empty(), is_known);
+      if (!is_known)
+        QCOMPARE(series->warnings[0],
+                 std::string("space units 'furlong' are not known; lengths are read as mm"));
+    }
+    put(folder / "v.nrrd", header(1.0, "\"mm\" \"mm\" \"um\""));
+    const auto refused = imaging::read_volume_file(folder / "v.nrrd");
+    QVERIFY(!refused);
+    QCOMPARE(refused.error().kind, ErrorKind::input);
+    QVERIFY2(failure(refused).contains("v.nrrd: space units: "), qPrintable(failure(refused)));
   }
 
   void nifti_slope_and_intercept_are_applied_once() {

@@ -336,6 +336,86 @@ class DicomSegmentationTest : public QObject {
     QCOMPARE(sops.size(), std::size_t{6});
   }
 
+  // As in files that leave out empty segments, or list them in another order.
+  void frames_name_their_segment_by_its_number_data() {
+    QTest::addColumn<QList<int>>("numbers");
+    QTest::newRow("another order") << QList<int>{2, 3, 1};
+    QTest::newRow("two swapped") << QList<int>{1, 3, 2};
+    QTest::newRow("some left out") << QList<int>{1, 3, 65'535};
+    QTest::newRow("all but one left out") << QList<int>{2};
+  }
+
+  void frames_name_their_segment_by_its_number() {
+    QFETCH(QList<int>, numbers);
+    const test::TemporaryFolder folder;
+    const auto file = folder / "seg.dcm";
+    const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
+    imaging::Segments written = test::speckled_segments(grid);
+    written.list.resize(static_cast<std::size_t>(numbers.size()));
+    QCOMPARE(test::failure(imaging::write_segmentation(written, {}, file)), QString());
+    const auto in_order = imaging::read_segmentation(file, &grid);
+    QCOMPARE(test::failure(in_order), QString());
+    test::renumber_segments(file, {numbers.begin(), numbers.end()});
+    const auto read = imaging::read_segmentation(file, &grid);
+    QCOMPARE(test::failure(read), QString());
+    verify_same(*read, written);
+    for (std::size_t n = 0; n < written.list.size(); ++n) {
+      QCOMPARE(read->list[n].name, in_order->list[n].name);
+      QCOMPARE(int{read->list[n].number}, numbers[static_cast<qsizetype>(n)]);
+    }
+  }
+
+  void a_segment_without_a_number_of_its_own_is_refused() {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "seg.dcm";
+    const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
+    const auto refusal = [&](const std::vector<std::uint16_t>& numbers) {
+      if (!imaging::write_segmentation(test::speckled_segments(grid), {}, file))
+        return QString("not written");
+      test::renumber_segments(file, numbers);
+      return test::failure(imaging::read_segmentation(file, &grid));
+    };
+    const QString none = refusal({1, 0, 2});
+    QVERIFY2(none.contains("seg.dcm: SegmentNumber (0062,0004) of segment 2 is missing"), qPrintable(none));
+    const QString twice = refusal({4, 7, 4});
+    QVERIFY2(twice.contains("seg.dcm: SegmentNumber (0062,0004) of segment 3 is 4"), qPrintable(twice));
+    QCOMPARE(refusal({1, 2, 3}), QString());
+    test::edit(file, [](DcmDataset& dataset) {
+      DcmItem* second = nullptr;
+      QVERIFY(dataset.findAndGetSequenceItem(DCM_SegmentSequence, second, 1).good());
+      second->putAndInsertUint16(DCM_SegmentNumber, 4);
+    });
+    const QString undescribed = test::failure(imaging::read_segmentation(file, &grid));
+    QVERIFY2(undescribed.contains("belongs to a segment that is not described"), qPrintable(undescribed));
+  }
+
+  void another_frame_of_reference_than_the_studys_is_remarked() {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "seg.dcm";
+    const auto series =
+        test::write_sample_series(test::sample_grid({11, 7, 6}, glm::dmat3(1.0)), folder / "series");
+    const std::string study = test::only_series(series.folder).frame_of_reference_uid;
+    QVERIFY(!study.empty());
+    QCOMPARE(test::failure(
+                 imaging::write_segmentation(test::speckled_segments(series.geometry), series.files, file)),
+             QString());
+    const auto read = imaging::read_segmentation(file, &series.geometry);
+    QCOMPARE(test::failure(read), QString());
+    QCOMPARE(read->frames_of_reference, std::vector<std::string>{study});
+    QVERIFY(!imaging::frame_remark(read->frames_of_reference, study));
+    QVERIFY(!imaging::frame_remark(read->frames_of_reference, {}));  // the study's is not known
+    const auto remark = imaging::frame_remark(read->frames_of_reference, "1.2.3");
+    QVERIFY(remark && remark->find("another frame of reference than the study") != std::string::npos);
+    const auto mask = imaging::load_any_mask(file, &series.geometry);
+    QCOMPARE(test::failure(mask), QString());
+    QVERIFY(mask->frames_of_reference == read->frames_of_reference);
+
+    test::set_text(file, 0x0020, 0x0052, "");
+    const auto silent = imaging::read_segmentation(file, &series.geometry);
+    QCOMPARE(test::failure(silent), QString());
+    QVERIFY(!imaging::frame_remark(silent->frames_of_reference, study));
+  }
+
   void damage_is_refused_by_name_data() {
     QTest::addColumn<QString>("field");
     QTest::addColumn<unsigned>("group");

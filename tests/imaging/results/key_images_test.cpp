@@ -3,6 +3,7 @@
 #include <QProcess>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "imaging/results/key_images.h"
 #include "tests/imaging/dicom/series_files.h"
@@ -40,11 +41,13 @@ class KeyImagesTest : public QObject {
   void validators_find_no_error();
   void pydicom_finds_the_outline_where_the_segment_ends_data() { add_orientation_rows(); }
   void pydicom_finds_the_outline_where_the_segment_ends();
+  void an_outline_ends_with_the_image_data() { add_orientation_rows(); }
+  void an_outline_ends_with_the_image();
   void what_no_state_can_show_is_refused();
 
  private:
-  // A ball in a series of that orientation, its key image and state.
-  void write(int index);
+  // A segment (a ball, where there is none) in a series of that orientation, its key image and state.
+  void write(int index, const std::optional<imaging::Segment>& segment = {});
 
   TemporaryFolder folder_;
   std::filesystem::path selection_, state_;
@@ -52,10 +55,10 @@ class KeyImagesTest : public QObject {
   imaging::Segments segments_;
 };
 
-void KeyImagesTest::write(int index) {
+void KeyImagesTest::write(int index, const std::optional<imaging::Segment>& segment) {
   const std::string name = std::to_string(index);
   series_ = write_oriented_series(index, {40, 32, 9}, folder_ / ("series" + name));
-  segments_ = {series_.geometry, {ball_segment(series_.geometry, kRadius)}, {}};
+  segments_ = {series_.geometry, {segment ? *segment : ball_segment(series_.geometry, kRadius)}, {}};
   segments_.list.front().name = "Leber \xc3\xbc";
   selection_ = folder_ / ("key" + name + ".dcm");
   state_ = folder_ / ("state" + name + ".dcm");
@@ -123,6 +126,22 @@ void KeyImagesTest::pydicom_finds_the_outline_where_the_segment_ends() {
     const QJsonArray mm = point.toArray();
     const double radius = glm::distance(middle, {mm[0].toDouble(), mm[1].toDouble(), mm[2].toDouble()});
     QVERIFY2(std::abs(radius - kRadius) < 0.05, qPrintable(QString::number(radius)));
+  }
+}
+
+// The corner of the first pixel is 0\0, and nothing lies beyond the image (PS3.3 Table C.10-5).
+void KeyImagesTest::an_outline_ends_with_the_image() {
+  QFETCH(int, index);
+  imaging::Segment all;
+  all.slices[4] = std::vector<std::uint8_t>(std::size_t{40} * 32, 1);
+  write(index, all);
+  const QJsonObject shown = read_with_pydicom(state_, series_.folder);
+  for (const auto& [along, size] : {std::pair("columns", 40.0), std::pair("rows", 32.0)}) {
+    const double low = shown[along].toArray()[0].toDouble(-1.0);
+    const double high = shown[along].toArray()[1].toDouble(-1.0);
+    const QString found = QStringLiteral("%1: %2 to %3").arg(QLatin1String(along)).arg(low).arg(high);
+    QVERIFY2(low >= 0.0 && high <= size, qPrintable(found));
+    QVERIFY2(low < 1e-3 && high > size - 1e-3, qPrintable(found));
   }
 }
 

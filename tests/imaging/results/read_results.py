@@ -170,17 +170,21 @@ def selection(result, images):
 
 def presentation(result, images):
     """What a presentation state shows, with outlines in mm of the patient."""
-    outlines, names = [], []
+    outlines, names, graphics = [], [], []
     for annotation in result.GraphicAnnotationSequence:
         image = images[annotation.ReferencedImageSequence[0].ReferencedSOPInstanceUID]
         corner = numpy.array(image.ImagePositionPatient, float)
         orientation = numpy.array(image.ImageOrientationPatient, float)
         rows, columns = image.PixelSpacing
         for line in annotation.GraphicObjectSequence:
-            pixels = numpy.array(line.GraphicData, float).reshape(-1, 2) - 1.0
+            graphics += line.GraphicData
+            # The middle of the first pixel is at 0.5\0.5 (PS3.3 Table C.10-5).
+            pixels = numpy.array(line.GraphicData, float).reshape(-1, 2) - 0.5
             mm = corner + pixels[:, :1] * columns * orientation[:3] + pixels[:, 1:] * rows * orientation[3:]
             outlines.append(mm.tolist())
-        names += [text.UnformattedTextValue for text in annotation.get("TextObjectSequence", [])]
+        for text in annotation.get("TextObjectSequence", []):
+            names.append(text.UnformattedTextValue)
+            graphics += text.AnchorPoint
     values = result.SoftcopyVOILUTSequence[0]
     area = result.DisplayedAreaSelectionSequence[0]
     return {
@@ -194,6 +198,8 @@ def presentation(result, images):
         ),
         "layers": len(result.GraphicLayerSequence),
         "outlines": outlines,
+        "columns": [min(graphics[::2]), max(graphics[::2])],
+        "rows": [min(graphics[1::2]), max(graphics[1::2])],
         "names": names,
     }
 

@@ -1,5 +1,8 @@
 #include "tests/imaging/results/sample_results.h"
 
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
 #include <QJsonDocument>
 #include <QProcess>
 #include <QTest>
@@ -87,6 +90,25 @@ imaging::Segments speckled_segments(const Geometry& geometry) {
     segments.list.push_back(std::move(segment));
   }
   return segments;
+}
+
+void renumber_segments(const std::filesystem::path& file, const std::vector<std::uint16_t>& numbers) {
+  edit(file, [&](DcmDataset& dataset) {
+    DcmSequenceOfItems* segments = nullptr;
+    DcmSequenceOfItems* frames = nullptr;
+    QVERIFY(dataset.findAndGetSequence(DCM_SegmentSequence, segments).good());
+    QVERIFY(dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, frames).good());
+    QCOMPARE(std::size_t{segments->card()}, numbers.size());
+    for (unsigned long n = 0; n < segments->card(); ++n)
+      segments->getItem(n)->putAndInsertUint16(DCM_SegmentNumber, numbers[n]);
+    for (unsigned long n = 0; n < frames->card(); ++n) {
+      DcmItem* frame = nullptr;
+      Uint16 number = 0;
+      QVERIFY(frames->getItem(n)->findAndGetSequenceItem(DCM_SegmentIdentificationSequence, frame).good());
+      QVERIFY(frame->findAndGetUint16(DCM_ReferencedSegmentNumber, number).good());
+      frame->putAndInsertUint16(DCM_ReferencedSegmentNumber, numbers.at(number - 1U));
+    }
+  });
 }
 
 imaging::Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm) {

@@ -3,6 +3,7 @@
 
 #include <QJsonObject>
 #include <QString>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -34,6 +35,10 @@ void add_orientation_rows();
 // Three segments of speckles that differ in every direction: the first two overlap, and both leave out
 // slices.
 imaging::Segments speckled_segments(const Geometry& geometry);
+
+// Gives the segments of a written segmentation these numbers, in the order of their items, and each frame the
+// number of its segment. Fails the test that runs where there are others than the writer's.
+void renumber_segments(const std::filesystem::path& file, const std::vector<std::uint16_t>& numbers);
 
 // A ball around the middle of the grid as mask and as phi, radius in mm; with `hollow_mm`, without its core.
 imaging::Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm = 0.0);

@@ -74,6 +74,32 @@ class StructureSetTest : public QObject {
     QCOMPARE(regions[1].toObject()["colour"].toArray()[1].toInt(), 114);
   }
 
+  void each_region_may_name_a_frame_of_reference() {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "set.dcm";
+    const auto series =
+        test::write_sample_series(test::sample_grid({21, 17, 6}, glm::dmat3(1.0)), folder / "series");
+    const std::string study = test::only_series(series.folder).frame_of_reference_uid;
+    QVERIFY(!study.empty());
+    QCOMPARE(test::failure(
+                 imaging::write_structure_set(test::speckled_segments(series.geometry), series.files, file)),
+             QString());
+    const auto same = imaging::read_structure_set(file, series.geometry);
+    QCOMPARE(test::failure(same), QString());
+    QCOMPARE(same->frames_of_reference, std::vector<std::string>{study});
+    QVERIFY(!imaging::frame_remark(same->frames_of_reference, study));
+
+    test::edit(file, [](DcmDataset& dataset) {
+      DcmItem* second = nullptr;
+      QVERIFY(dataset.findAndGetSequenceItem(DCM_StructureSetROISequence, second, 1).good());
+      second->putAndInsertString(DCM_ReferencedFrameOfReferenceUID, "1.2.3");
+    });
+    const auto mixed = imaging::read_structure_set(file, series.geometry);
+    QCOMPARE(test::failure(mixed), QString());
+    QCOMPARE(mixed->frames_of_reference.size(), std::size_t{2});
+    QVERIFY(imaging::frame_remark(mixed->frames_of_reference, study));
+  }
+
   void pydicom_finds_the_volume_of_a_ball() {
     const test::TemporaryFolder folder;
     Geometry geometry = test::sample_grid({60, 50, 22}, test::orientations().back().direction);
