@@ -32,13 +32,14 @@ class Curve {
 
   // Adds a point behind the last one, or nothing if no step was made. A long curve is thinned.
   void add(const CurvePoint& point);
-  // Another answer is compared with from now on.
-  void forget_dice();
+  // Dice values are about the answer of that number: those about another one are forgotten.
+  void compare_with(std::uint64_t answer);
   // Removes the points from this step on.
   void cut(std::int64_t step);
 
  private:
   std::shared_ptr<const Points> points_ = std::make_shared<const Points>();
+  std::uint64_t answer_ = 0;
 };
 
 }  // namespace tidemark::document

@@ -14,8 +14,7 @@ namespace {
 
 constexpr const char* kHistoryFormat = "tidemark history";
 constexpr int kVersion = 1;
-constexpr std::size_t kMostPoints = 4'000'000;  // of all curves together
-constexpr std::size_t kMostJsonBytes = std::size_t{64} << 20;
+constexpr std::size_t kMostPoints = 4'000'000;              // of all curves together
 constexpr std::int64_t kMostPages = std::int64_t{1} << 22;  // 8 GB; memory is taken for what is there
 
 // In the order of ChangeKind.
@@ -25,29 +24,17 @@ const std::vector<std::string_view> kKinds{
     "examples",      "constraints", "speed",     "new label",  "label settings", "remove label",
     "import labels", "accept",      "finish",    "label brush"};
 
-bool same_start(const Start& a, const Start& b) {
-  if (a.seeds != b.seeds || a.erasers != b.erasers || a.from.index() != b.from.index()) return false;
-  if (const auto* threshold = std::get_if<ThresholdStart>(&a.from))
-    return *threshold == std::get<ThresholdStart>(b.from);
-  if (const auto* flood = std::get_if<FloodStart>(&a.from)) return *flood == std::get<FloodStart>(b.from);
-  if (const auto* mask = std::get_if<MaskStart>(&a.from)) {
-    const auto& other = std::get<MaskStart>(b.from);
-    return mask->mask == other.mask && mask->limit == other.limit && mask->origin == other.origin;
-  }
-  if (const auto* phi = std::get_if<FieldStart>(&a.from)) return phi->phi == std::get<FieldStart>(b.from).phi;
-  return true;
-}
-
-// What a state's own recipe and curve go on from.
+// What a state's own recipe, wanted drive and curve go on from.
 struct Base {
   const Recipe& recipe;
+  const std::shared_ptr<const Drive>& wanted_drive;
   const Curve& curve;
 };
 
 Base base_of(const SessionContents& contents, const SavedState& state) {
-  if (!state.parent) return {contents.recipe, contents.curve};
+  if (!state.parent) return {contents.recipe, contents.wanted_drive, contents.curve};
   const SavedState& parent = contents.history.states[*state.parent];
-  return {parent.recipe, parent.curve};
+  return {parent.recipe, parent.wanted_drive, parent.curve};
 }
 
 template <class T>
@@ -64,7 +51,7 @@ Json state_json(const SavedState& state, const Base& base, std::size_t phi) {
   Recipe own = state.recipe;
   const std::size_t events = common(base.recipe.events, own.events);
   own.events = behind(own.events, events);
-  const bool start = same_start(base.recipe.start, own.start);
+  const bool start = base.recipe.start == own.start;
   if (start) own.start = {};
   const bool drive = base.recipe.drive == own.drive;
   if (drive) own.drive.reset();
@@ -81,7 +68,17 @@ Json state_json(const SavedState& state, const Base& base, std::size_t phi) {
             {"curve", curve_json(behind(*state.curve.points(), points))},
             {"phi", phi}};
   if (state.parent) json["parent"] = *state.parent;
+  if (state.wanted_drive == nullptr) return json;
+  if (state.wanted_drive == base.wanted_drive) {
+    json["same_wanted_drive"] = true;
+  } else {
+    json["wanted_drive"] = wanted_drive_json(*state.wanted_drive);
+  }
   return json;
+}
+
+std::string history_dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string history_text(const SessionContents& contents, const std::vector<std::size_t>& phi_of) {
@@ -93,7 +90,47 @@ std::string history_text(const SessionContents& contents, const std::vector<std:
   for (const SavedState& state : history.states)
     states.push_back(state_json(state, base_of(contents, state), phi_of[states.size()]));
   json["states"] = std::move(states);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return history_dump(json);
+}
+
+// What a part of the text takes of the reader's limits.
+struct TextSize {
+  std::size_t bytes = 0;
+  std::size_t values = 0;
+};
+
+TextSize operator+(const TextSize& a, const TextSize& b) {
+  return {a.bytes + b.bytes, a.values + b.values};
+}
+
+// With a comma, and with a number of phi that is as long as any.
+TextSize size_of(const SavedState& state, const Base& base) {
+  const std::string text = history_dump(state_json(state, base, SavedHistory::kMostStates));
+  const auto json = JsonDocument::parse(text, {}, kHistoryLimits);
+  return {text.size() + 1, json ? json->end(0) : kHistoryLimits.values};
+}
+
+// For each state whether it is near enough to the present one for a text within the limits.
+std::vector<bool> near_enough(const SessionContents& contents, const JsonLimits& limits) {
+  const SavedHistory& history = contents.history;
+  const Base session{contents.recipe, contents.wanted_drive, contents.curve};
+  std::vector<bool> near(history.states.size(), false);
+  TextSize first;            // of the state that has no parent in the file
+  TextSize others{256, 32};  // beside the states there is less
+  for (const auto& [state, from] : outwards(history)) {
+    const SavedState& visited = history.states[state];
+    if (visited.parent == from) {
+      others = others + size_of(visited, base_of(contents, visited));
+    } else {
+      if (state != from)
+        others = others + size_of(history.states[from], base_of(contents, history.states[from]));
+      first = size_of(visited, session);
+    }
+    const TextSize whole = first + others;
+    if (state != from && (whole.bytes > limits.bytes || whole.values > limits.values)) break;
+    near[state] = true;
+  }
+  return near;
 }
 
 // Reading.
@@ -120,6 +157,12 @@ Recipe read_own_recipe(const JsonField& field, const Recipe& base) {
       (!recipe.events.empty() && recipe.events.back().step > recipe.steps))
     field.at("common_events").wrong("the events are not in order");
   return recipe;
+}
+
+std::shared_ptr<const Drive> read_own_wanted_drive(const JsonField& field, const Recipe& recipe,
+                                                   const std::shared_ptr<const Drive>& base) {
+  if (field.has("wanted_drive")) return read_wanted_drive(field.at("wanted_drive"), recipe);
+  return field.has("same_wanted_drive") && field.at("same_wanted_drive").boolean() ? base : nullptr;
 }
 
 Curve read_own_curve(const JsonField& field, const Curve& base) {
@@ -151,6 +194,7 @@ std::vector<std::size_t> read_states(const JsonField& field, SessionContents& co
     const Base base = base_of(contents, state);
     state.change = read_change(one.at("change"));
     state.recipe = read_own_recipe(one, base.recipe);
+    state.wanted_drive = read_own_wanted_drive(one, state.recipe, base.wanted_drive);
     state.curve = read_own_curve(one, base.curve);
     const std::int64_t phi = one.at("phi").integer(0, static_cast<std::int64_t>(count) - 1);
     phi_of.push_back(static_cast<std::size_t>(phi));
@@ -195,25 +239,34 @@ std::vector<ZipEntry> HistoryEntries::entries() const {
           phi.pages_entry(kHistoryPages)};
 }
 
-HistoryEntries history_entries(const SessionContents& contents) {
+HistoryEntries history_entries(const SessionContents& contents, const JsonLimits& limits) {
   SessionContents written;  // what its states are told apart from
   written.recipe = contents.recipe;
+  written.wanted_drive = contents.wanted_drive;
   written.curve = contents.curve;
   HistoryForFile file = for_file(contents.history);
   written.history = std::move(file.history);
-  return {history_text(written, file.phi_of), std::move(file.phi)};
+  std::string text = history_text(written, file.phi_of);
+  if (!JsonDocument::parse(text, {}, limits)) {
+    file = for_file(part_of(written.history, near_enough(written, limits)));
+    written.history = std::move(file.history);
+    text = history_text(written, file.phi_of);
+  }
+  return {std::move(text), std::move(file.phi)};
 }
 
 Status read_history(ZipReader& archive, SessionContents& contents, const std::string& file) {
   if (!archive.has(kHistoryJson)) return {};
   const std::string what = file + ": " + std::string(kHistoryJson);
   const std::size_t size = archive.size(kHistoryJson);
-  const JsonLimits limits{.bytes = kMostJsonBytes};
-  if (size > limits.bytes)
-    return fail(ErrorKind::input, "{} has {} bytes, more than {} are not read", what, size, limits.bytes);
+  if (size > kHistoryLimits.bytes) {
+    return fail(ErrorKind::input, "{} has {} bytes, more than {} are not read", what, size,
+                kHistoryLimits.bytes);
+  }
   auto text = archive.read(kHistoryJson, size);
   if (!text) return pass_on(text);
-  auto json = JsonDocument::parse({reinterpret_cast<const char*>(text->data()), text->size()}, what, limits);
+  auto json =
+      JsonDocument::parse({reinterpret_cast<const char*>(text->data()), text->size()}, what, kHistoryLimits);
   if (!json) return pass_on(json);
   const JsonField root = root_of(*json, what);
   root.at("format").must_be(kHistoryFormat);

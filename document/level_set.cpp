@@ -148,6 +148,7 @@ Result<solver::AdvanceReport> LevelSet::advance(const solver::Advance& run) {
 }
 
 void LevelSet::put_in_place(Point point) {
+  point.curve.compare_with(answer_);
   Point copy = point;  // whatever may lack memory comes first: nothing is in place by half
   Recipe recipe = point.recipe;
   recipe_ = std::move(recipe);
@@ -186,9 +187,9 @@ Status LevelSet::go_to(Point point) {
 }
 
 Status LevelSet::resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi,
-                             const Curve& curve) {
+                             const Curve& curve, const std::shared_ptr<const Drive>& wanted_drive) {
   TIDEMARK_TRY(history_.close());
-  auto drive = std::make_shared<const Drive>(value_of(recipe.final_drive()));
+  auto drive = drive_of(recipe, wanted_drive);
   TIDEMARK_TRY(go_to({recipe, phi, recipe.steps == 0 ? phi : nullptr, curve, std::move(drive)}));
   settled_events_ = recipe_.events.size();
   history_.set_steering(steering_of(known_));

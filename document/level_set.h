@@ -103,8 +103,12 @@ class LevelSet final : private OpenChange {
   // Whether steps without an edit among them are the open change.
   [[nodiscard]] bool in_run() const { return open_ && open_->gesture == 0; }
 
-  // Goes on from a saved recipe and the phi that it had led to. Not an entry of the history.
-  Status resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi, const Curve& curve = {});
+  // drive(), unless the recipe ends with it: it waits for its function, or has what another function needs.
+  // Null: the recipe ends with it.
+  [[nodiscard]] std::shared_ptr<const Drive> wanted_drive() const { return unless_last(recipe_, drive_); }
+  // Goes on from a saved recipe, the phi that it had led to, and wanted_drive(). Not an entry of the history.
+  Status resume_from(const Recipe& recipe, std::shared_ptr<const solver::Field> phi, const Curve& curve = {},
+                     const std::shared_ptr<const Drive>& wanted_drive = nullptr);
 
   // The states of the history. Empty while a change is open.
   [[nodiscard]] SavedHistory saved_history() const;
@@ -114,7 +118,8 @@ class LevelSet final : private OpenChange {
 
   // The development of the surface since the start; the caller adds points, undo and redo bring them back.
   [[nodiscard]] const Curve& curve() const { return curve_; }
-  void forget_dice() { curve_.forget_dice(); }  // of the curve
+  // Another answer is compared with from now on: no state's curve says anything of the former one any more.
+  void forget_dice() { curve_.compare_with(++answer_); }
   void note(const CurvePoint& point);
 
  private:
@@ -148,6 +153,10 @@ class LevelSet final : private OpenChange {
   [[nodiscard]] static Steering steering_of(const Point& point) {
     return steering_of(point.recipe, *point.drive, point.phi);
   }
+  [[nodiscard]] static std::shared_ptr<const Drive> unless_last(const Recipe& recipe,
+                                                                const std::shared_ptr<const Drive>& drive);
+  [[nodiscard]] static std::shared_ptr<const Drive> drive_of(
+      const Recipe& recipe, const std::shared_ptr<const Drive>& wanted_drive);
   [[nodiscard]] Point point_of(const SavedHistory& history, std::size_t state) const;
 
   LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, History& history);
@@ -186,6 +195,7 @@ class LevelSet final : private OpenChange {
   Recipe recipe_;
   std::shared_ptr<const solver::Field> start_;  // phi before the first step
   Curve curve_;
+  std::uint64_t answer_ = 0;  // with which surfaces are compared: grows with each choice
   std::shared_ptr<const Drive> drive_ = std::make_shared<const Drive>();
   // How many of the recipe's events every way through the history to the last entry has: set_speed() adds
   // some between two entries.

@@ -20,6 +20,8 @@ class LevelSetChange : public Change {
   [[nodiscard]] Recipe recipe_after(const Recipe& before) const { return with_common_events(after_, before); }
   [[nodiscard]] const Curve& curve_before() const { return before_.curve; }
   [[nodiscard]] const Curve& curve_after() const { return after_.curve; }
+  [[nodiscard]] const std::shared_ptr<const Drive>& drive_before() const { return before_.drive; }
+  [[nodiscard]] const std::shared_ptr<const Drive>& drive_after() const { return after_.drive; }
 
  private:
   // The part of a recipe beyond the events that both have.

@@ -13,6 +13,18 @@ Steering LevelSet::steering_of(const Recipe& recipe, const Drive& drive,
   return {recipe.begun(), recipe.steps, recipe.final_parameters(), describe(drive), std::move(phi)};
 }
 
+std::shared_ptr<const Drive> LevelSet::unless_last(const Recipe& recipe,
+                                                   const std::shared_ptr<const Drive>& drive) {
+  return *drive == value_of(recipe.final_drive()) ? nullptr : drive;
+}
+
+// The drive of which that is what unless_last() has left.
+std::shared_ptr<const Drive> LevelSet::drive_of(const Recipe& recipe,
+                                                const std::shared_ptr<const Drive>& wanted_drive) {
+  if (wanted_drive != nullptr) return wanted_drive;
+  return std::make_shared<const Drive>(value_of(recipe.final_drive()));
+}
+
 // One of the points on a way through the history: the executor gets the last one only.
 void LevelSet::pass(Point point) {
   point.recipe.executor = setup_.description();
@@ -50,16 +62,20 @@ SavedHistory LevelSet::saved_history() const {
     const SavedState& near = saved.states[visit.from];
     if (visit.state == visit.from) {
       state.recipe = recipe_;
+      state.wanted_drive = wanted_drive();
       state.curve = curve_;
     } else if (state.parent == visit.from) {
       const LevelSetChange& change = *from_parents[visit.state];
       state.recipe = change.recipe_after(near.recipe);
+      state.wanted_drive = unless_last(state.recipe, change.drive_after());
       state.curve = change.curve_after();
     } else {
       const LevelSetChange& change = *from_parents[visit.from];
       state.recipe = change.recipe_before(near.recipe);
+      state.wanted_drive = unless_last(state.recipe, change.drive_before());
       state.curve = change.curve_before();
     }
+    state.curve.compare_with(answer_);
   }
   return saved;
 }
@@ -73,7 +89,7 @@ LevelSet::Point LevelSet::point_of(const SavedHistory& history, std::size_t stat
   point.phi = saved.phi;
   if (saved.recipe.steps == 0) point.start = point.phi;
   point.curve = saved.curve;
-  point.drive = std::make_shared<const Drive>(value_of(saved.recipe.final_drive()));
+  point.drive = drive_of(saved.recipe, saved.wanted_drive);
   return point;
 }
 

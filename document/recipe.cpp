@@ -69,15 +69,19 @@ void Recipe::set_conditions(const solver::Parameters& wanted,
 
 void Recipe::change_drives(const std::function<void(Drive&)>& change) {
   const auto change_one = [&](std::shared_ptr<const Drive>& one) {
-    if (one == nullptr) return;
-    Drive changed = *one;
-    change(changed);
-    if (changed != *one) one = std::make_shared<const Drive>(std::move(changed));
+    if (one != nullptr) one = changed_drive(one, change);
   };
   change_one(drive);
   for (RecipeEvent& event : events) {
     if (auto* later = std::get_if<DriveEvent>(&event.what)) change_one(later->drive);
   }
+}
+
+std::shared_ptr<const Drive> changed_drive(const std::shared_ptr<const Drive>& drive,
+                                           const std::function<void(Drive&)>& change) {
+  Drive copy = *drive;
+  change(copy);
+  return copy == *drive ? drive : std::make_shared<const Drive>(std::move(copy));
 }
 
 Recipe Recipe::up_to(std::int64_t step) const {

@@ -104,4 +104,8 @@ struct Recipe {
   [[nodiscard]] Recipe up_to(std::int64_t step) const;
 };
 
+// The drive after that change; the same one where nothing of it differs.
+[[nodiscard]] std::shared_ptr<const Drive> changed_drive(const std::shared_ptr<const Drive>& drive,
+                                                         const std::function<void(Drive&)>& change);
+
 }  // namespace tidemark::document

@@ -369,6 +369,18 @@ Recipe read_recipe(const JsonField& field) {
   return recipe;
 }
 
+Json wanted_drive_json(const Drive& drive) {
+  Drive without = drive;
+  without.constraints.reset();
+  return to_json(without);
+}
+
+std::shared_ptr<const Drive> read_wanted_drive(const JsonField& field, const Recipe& recipe) {
+  Drive drive = read_drive(field, recipe.source.size);
+  drive.constraints = value_of(recipe.final_drive()).constraints;
+  return std::make_shared<const Drive>(std::move(drive));
+}
+
 Result<std::string> Recipe::to_text() const {
   std::string text = json_text(tidemark::document::to_json(*this), 1);
   if (text.size() <= kLargestFile) {

@@ -14,8 +14,11 @@ namespace tidemark::document {
 [[nodiscard]] Json to_json(const imaging::GridPolicy& policy);
 // The parameters that differ from those of `base`: a band or w that only `base` sets is "default".
 [[nodiscard]] Json changed_parameters(const solver::Parameters& parameters, const solver::Parameters& base);
+// What is wanted beside a recipe (LevelSet::wanted_drive()). What holds the surface is always the recipe's.
+[[nodiscard]] Json wanted_drive_json(const Drive& drive);
 
 // Errors are noted in the field's document.
+std::shared_ptr<const Drive> read_wanted_drive(const JsonField& field, const Recipe& recipe);
 Recipe read_recipe(const JsonField& field);
 Geometry read_geometry(const JsonField& field);
 solver::Parameters read_parameters(const JsonField& field);

@@ -18,6 +18,7 @@ struct SavedState {
   std::optional<std::size_t> parent;  // one of those before it; unset: it is the first
   ChangeDescription change;           // from there
   Recipe recipe;
+  std::shared_ptr<const Drive> wanted_drive;  // beside the recipe, see LevelSet::wanted_drive()
   Curve curve;
   std::shared_ptr<const solver::Field> phi;
 };

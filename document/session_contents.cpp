@@ -24,6 +24,7 @@ Result<SessionContents> snapshot_of(Case& document) {
   contents.origin = document.origin();
   contents.geometry = document.volume()->geometry;
   contents.recipe = document.level_set().recipe();
+  contents.wanted_drive = document.level_set().wanted_drive();
   RecipeSource& source = contents.recipe.source;
   source.series_uid = contents.origin.series_uid;
   source.checksum = contents.origin.checksum;
@@ -58,7 +59,8 @@ Result<std::unique_ptr<Case>> restore_case(const SessionContents& contents,
       Case::create(std::move(volume), contents.origin, contents.recipe.final_parameters(), kind, options);
   if (!made) return made;
   Case& document = **made;
-  Status restored = document.level_set().resume_from(contents.recipe, contents.phi, contents.curve);
+  Status restored =
+      document.level_set().resume_from(contents.recipe, contents.phi, contents.curve, contents.wanted_drive);
   if (!restored) return pass_on(restored);
   const PagedBytes none(contents.geometry.size);
   restored = document.labels().assign(contents.labels, contents.label_voxels ? *contents.label_voxels : none);

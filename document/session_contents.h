@@ -14,8 +14,9 @@ namespace tidemark::document {
 // The volume's voxels are not part of it: the origin finds them again, or makes them again (phantoms).
 struct SessionContents {
   StudyOrigin origin;
-  Geometry geometry;  // of the volume
-  Recipe recipe;      // with it, parameters, step number and smoothing
+  Geometry geometry;                          // of the volume
+  Recipe recipe;                              // with it, parameters, step number and smoothing
+  std::shared_ptr<const Drive> wanted_drive;  // beside the recipe, see LevelSet::wanted_drive()
   std::shared_ptr<const solver::Field> phi;
   std::vector<Label> labels;
   std::shared_ptr<const PagedBytes> label_voxels;  // null: no voxel has a label
@@ -24,7 +25,7 @@ struct SessionContents {
   std::string view_state;
   SavedHistory history;  // empty: only the present state is known
   // Further images of the case, whether or not the speed function uses them. As read from a file they have no
-  // voxels, and neither have the recipe's maps: see find_images().
+  // voxels, and neither have the images and maps of drives: see find_images().
   std::vector<std::shared_ptr<const CaseImage>> images;
 };
 

@@ -12,6 +12,7 @@
 #include "document/file_limits.h"
 #include "document/history_file.h"
 #include "document/recipe_json.h"
+#include "document/session_drives.h"
 #include "document/zip_archive.h"
 
 namespace tidemark::document {
@@ -24,7 +25,7 @@ constexpr std::string_view kLabels = "labels";
 constexpr std::string_view kTruth = "truth";
 constexpr const char* kSessionFormat = "tidemark session";
 constexpr std::size_t kLongestViewState = std::size_t{16} << 20;
-constexpr std::size_t kMostMaps = 1024;  // each was the user's choice once
+constexpr std::size_t kMostPlaces = 1024;  // of maps, and of images: each was the user's choice once
 constexpr std::size_t kLongestDescription = std::size_t{1} << 20;
 // Some 170,000 strokes of a brush: 2 million values, in 16 MiB of places and 32 MiB of text.
 constexpr JsonLimits kJsonLimits{.bytes = std::size_t{32} << 20, .values = std::size_t{2} << 20};
@@ -160,38 +161,65 @@ std::vector<std::shared_ptr<const CaseImage>> read_images(const JsonField& field
   return images;
 }
 
-// Where the recipe's maps lie: a recipe names no files.
-Json maps_json(const Recipe& recipe, const std::filesystem::path& file) {
-  std::map<std::string, Json> maps;  // by checksum
-  const auto add = [&](const std::shared_ptr<const Drive>& drive) {
-    if (drive == nullptr || drive->map == nullptr || drive->map->path.empty()) return;
-    Json one{{"sha256", drive->map->checksum}};
-    add_place(one, drive->map->path, file);
-    if (maps.size() < kMostMaps) maps[drive->map->checksum] = std::move(one);
+// Where the maps and images of drives lie, by their checksums: drives name no files.
+void add_places_of_drives(Json& json, const SessionContents& contents, const std::filesystem::path& file) {
+  std::map<std::string, Json> maps;
+  std::map<std::string, Json> images;
+  const auto add = [&](std::map<std::string, Json>& places, const auto& part, Json one) {
+    if (part.path.empty() || places.contains(part.checksum) || places.size() == kMostPlaces) return;
+    one["sha256"] = part.checksum;
+    add_place(one, part.path, file);
+    places[part.checksum] = std::move(one);
   };
-  add(recipe.drive);
-  for (const RecipeEvent& event : recipe.events) {
-    if (const auto* change = std::get_if<DriveEvent>(&event.what)) add(change->drive);
-  }
-  Json list = Json::array();
-  for (auto& [checksum, one] : maps) list.push_back(std::move(one));
-  return list;
+  visit_drives(contents, [&](const Drive& drive) {
+    if (drive.map != nullptr) add(maps, *drive.map, Json::object());
+    for (const auto& image : drive.images)
+      add(images, *image, Json{{"slices", document::to_json(image->policy)}});
+  });
+  for (auto& [checksum, one] : maps) json["maps"].push_back(std::move(one));
+  for (auto& [checksum, one] : images) json["image_places"].push_back(std::move(one));
 }
 
-void read_maps(const JsonField& field, const std::filesystem::path& file, Recipe& recipe) {
-  std::map<std::string, std::filesystem::path> places;
-  const std::size_t count = field.size(kMostMaps);
-  for (std::size_t i = 0; i < count && field.good(); ++i)
-    places[field.at(i).at("sha256").text(64)] = read_place(field.at(i), file);
+struct PlaceOfDrives {
+  std::filesystem::path path;
+  imaging::GridPolicy policy;  // of an image
+};
+using PlacesOfDrives = std::map<std::string, PlaceOfDrives>;  // by checksum
+
+PlacesOfDrives read_places_of_drives(const JsonField& root, const char* name,
+                                     const std::filesystem::path& file) {
+  PlacesOfDrives places;
+  if (!root.has(name)) return places;
+  const JsonField list = root.at(name);
+  const std::size_t count = list.size(kMostPlaces);
+  for (std::size_t i = 0; i < count && root.good(); ++i) {
+    const JsonField one = list.at(i);
+    PlaceOfDrives& place = places[one.at("sha256").text(64)];
+    place.path = read_place(one, file);
+    if (one.has("slices")) place.policy = read_policy(one.at("slices"));
+  }
+  return places;
+}
+
+void put_places(SessionContents& contents, const PlacesOfDrives& of_maps, const PlacesOfDrives& of_images) {
   std::map<std::string, std::shared_ptr<const SpeedMap>> maps;
-  recipe.change_drives([&](Drive& drive) {
-    if (drive.map == nullptr || !places.contains(drive.map->checksum)) return;
-    auto& map = maps[drive.map->checksum];
-    if (map == nullptr) {
-      map = std::make_shared<const SpeedMap>(
-          SpeedMap{drive.map->name, drive.map->checksum, nullptr, places[drive.map->checksum]});
+  change_drives(contents, [&](Drive& drive) {
+    if (drive.map != nullptr && of_maps.contains(drive.map->checksum)) {
+      auto& map = maps[drive.map->checksum];
+      if (map == nullptr) {
+        map = std::make_shared<const SpeedMap>(
+            SpeedMap{drive.map->name, drive.map->checksum, nullptr, of_maps.at(drive.map->checksum).path});
+      }
+      drive.map = map;
     }
-    drive.map = map;
+    for (auto& image : drive.images) {
+      const auto place = of_images.find(image->checksum);
+      if (place == of_images.end()) continue;
+      auto placed = std::make_shared<CaseImage>(*image);
+      placed->path = place->second.path;
+      placed->policy = place->second.policy;
+      image = std::move(placed);
+    }
   });
 }
 
@@ -200,6 +228,7 @@ Json session_json(const SessionContents& contents, const std::filesystem::path& 
   json["study"] = study_json(contents.origin, file);
   json["grid"] = document::to_json(contents.geometry);
   json["recipe"] = document::to_json(contents.recipe);
+  if (contents.wanted_drive) json["wanted_drive"] = wanted_drive_json(*contents.wanted_drive);
   const Index3 shape = contents.phi->layout.page_shape();
   json["phi"] = {{"band", contents.phi->band},
                  {"page_shape", {shape.x, shape.y, shape.z}},
@@ -208,7 +237,7 @@ Json session_json(const SessionContents& contents, const std::filesystem::path& 
   json["curve"] = curve_json(*contents.curve.points());
   json["view_state"] = contents.view_state;
   if (!contents.images.empty()) json["images"] = images_json(contents, file);
-  if (Json maps = maps_json(contents.recipe, file); !maps.empty()) json["maps"] = std::move(maps);
+  add_places_of_drives(json, contents, file);
   return json;
 }
 
@@ -366,11 +395,14 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   contents.origin = read_study(root.at("study"), file);
   contents.geometry = read_geometry(root.at("grid"));
   contents.recipe = read_recipe(root.at("recipe"));
+  if (root.has("wanted_drive"))
+    contents.wanted_drive = read_wanted_drive(root.at("wanted_drive"), contents.recipe);
   contents.labels = read_labels(root.at("labels"));
   if (root.has("curve")) contents.curve = read_curve(root.at("curve"));
   contents.view_state = root.at("view_state").text(kLongestViewState);
   if (root.has("images")) contents.images = read_images(root.at("images"), file);
-  if (root.has("maps")) read_maps(root.at("maps"), file, contents.recipe);
+  const PlacesOfDrives maps = read_places_of_drives(root, "maps", file);
+  const PlacesOfDrives images = read_places_of_drives(root, "image_places", file);
   if (root.good() && contents.recipe.source.size != contents.geometry.size) {
     root.at("recipe").wrong("is of another grid");
   }
@@ -381,9 +413,7 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
   TIDEMARK_TRY(read_label_voxels(opened->archive, contents, name));
   TIDEMARK_TRY(read_truth(opened->archive, contents));
   TIDEMARK_TRY(read_history(opened->archive, contents, name));
-  if (root.has("maps")) {
-    for (SavedState& state : contents.history.states) read_maps(root.at("maps"), file, state.recipe);
-  }
+  put_places(contents, maps, images);
   return contents;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "document/checksum.h"
+#include "document/session_drives.h"
 #include "document/speed_map.h"
 #include "imaging/load_study.h"
 
@@ -57,45 +58,54 @@ Result<std::shared_ptr<const SpeedMap>> read(const SpeedMap& wanted, const Geome
   return map;
 }
 
+using Problems = std::vector<std::string>;
 using Maps = std::map<std::string, std::shared_ptr<const SpeedMap>>;  // by checksum
 
-// Gives all drives of a recipe their maps, and tells what could not be had. Each map is looked for once.
-std::vector<std::string> give_maps(Recipe& recipe, Maps& looked_at, const Geometry& grid,
-                                   const Progress& progress) {
-  std::vector<std::string> problems;
-  recipe.change_drives([&](Drive& drive) {
-    if (drive.map == nullptr || drive.map->volume != nullptr) return;
-    const auto [known, is_new] = looked_at.try_emplace(drive.map->checksum, drive.map);
-    if (is_new) {
-      auto found = read(*drive.map, grid, progress);
-      if (found) {
-        known->second = std::move(*found);
-      } else {
-        problems.push_back(found.error().message);
-      }
+// Gives the drive its map, and tells when it cannot be had. Each map is looked for once.
+void give_map(Drive& drive, Maps& looked_at, const Geometry& grid, const Progress& progress,
+              Problems& problems) {
+  if (drive.map == nullptr || drive.map->volume != nullptr) return;
+  const auto [known, is_new] = looked_at.try_emplace(drive.map->checksum, drive.map);
+  if (is_new) {
+    auto found = read(*drive.map, grid, progress);
+    if (found) {
+      known->second = std::move(*found);
+    } else {
+      problems.push_back(found.error().message);
     }
-    drive.map = known->second;
-  });
-  return problems;
+  }
+  drive.map = known->second;
+}
+
+// Gives the drive its images that are at hand.
+void give_images(Drive& drive, Images& images) {
+  for (auto& image : drive.images) {
+    if (auto found = image_for(*image, images)) image = std::move(found);
+  }
+}
+
+// Looks for the drive's images that are not at hand but have a place. Each is looked for once: one that
+// cannot be had is then at hand without voxels.
+void add_images(const Drive& drive, Images& images, const Progress& progress, Problems& problems) {
+  for (const auto& image : drive.images) {
+    if (image->path.empty() || image->checksum.empty() || image_for(*image, images) != nullptr) continue;
+    auto found = read(*image, progress);
+    images.push_back(found ? *found : image);
+    if (!found) problems.push_back(found.error().message);
+  }
 }
 
 }  // namespace
 
 void give_images(Recipe& recipe, std::vector<std::shared_ptr<const CaseImage>> images) {
-  recipe.change_drives([&](Drive& drive) {
-    for (auto& image : drive.images) {
-      if (auto found = image_for(*image, images)) image = std::move(found);
-    }
-  });
+  recipe.change_drives([&](Drive& drive) { give_images(drive, images); });
 }
 
 std::vector<std::string> find_images(SessionContents& contents, const Progress& progress) {
   Maps maps;
-  std::vector<std::string> problems = give_maps(contents.recipe, maps, contents.geometry, progress);
-  for (SavedState& state : contents.history.states) {
-    for (std::string& problem : give_maps(state.recipe, maps, contents.geometry, progress))
-      problems.push_back(std::move(problem));
-  }
+  Problems problems;
+  change_drives(contents,
+                [&](Drive& drive) { give_map(drive, maps, contents.geometry, progress, problems); });
   for (auto& image : contents.images) {
     auto found = read(*image, progress);
     if (found) {
@@ -104,8 +114,11 @@ std::vector<std::string> find_images(SessionContents& contents, const Progress& 
       problems.push_back(found.error().message);
     }
   }
-  give_images(contents.recipe, contents.images);
-  for (SavedState& state : contents.history.states) give_images(state.recipe, contents.images);
+  Images images = contents.images;
+  change_drives(contents, [&](Drive& drive) {
+    add_images(drive, images, progress, problems);
+    give_images(drive, images);
+  });
   return problems;
 }
 

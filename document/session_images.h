@@ -9,8 +9,8 @@
 
 namespace tidemark::document {
 
-// Gives images, maps and recipe of a session their voxels. What cannot be had stays without: the session
-// keeps it, and where it was. Returns one sentence a problem.
+// Gives images and maps of a session and of all its drives their voxels. What cannot be had stays without:
+// the session keeps it, and where it was. Returns one sentence a problem.
 std::vector<std::string> find_images(SessionContents& contents, const Progress& progress = {});
 
 // Gives all drives of a recipe the images that are at hand, by checksum. Images that lie at the same place

@@ -46,12 +46,8 @@ Status check_grid(const Geometry& part, const Geometry& grid, const char* what) 
 }
 
 Status check_sphere(const solver::Sphere& sphere, const Geometry& grid, const char* what) {
+  if (sphere.radius_mm > 0.0 && grid.covers(sphere.centre_mm)) return {};
   const glm::dvec3 voxel = grid.to_voxel(sphere.centre_mm);
-  bool inside = sphere.radius_mm > 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    inside = inside && voxel[axis] >= -0.5 && voxel[axis] <= static_cast<double>(grid.size[axis]) - 0.5;
-  }
-  if (inside) return {};
   return fail(ErrorKind::usage,
               "{} at voxel ({:.6g}, {:.6g}, {:.6g}) with a radius of {} mm is not in the "
               "volume of {} x {} x {} voxels",

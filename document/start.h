@@ -46,6 +46,7 @@ struct MaskStart {
   std::shared_ptr<const Mask> mask;
   std::string origin;
   std::shared_ptr<const solver::MotionLimit> limit = nullptr;  // around the mask; null: none
+  bool operator==(const MaskStart&) const = default;
 };
 // The same with a limit. Fails (ErrorKind::usage) unless that is above 0 mm.
 Result<MaskStart> limited(MaskStart start, double within_mm);
@@ -54,6 +55,7 @@ Result<MaskStart> limited(MaskStart start, double within_mm);
 struct FieldStart {
   std::shared_ptr<const solver::Field> phi;
   std::string origin;
+  bool operator==(const FieldStart&) const = default;
 };
 
 // The first part, then seeds are added, then erasers are taken away. With more than one level the level set
@@ -64,6 +66,8 @@ struct Start {
   std::vector<solver::Sphere> erasers;
   int levels = 1;  // to solver::CoarseGrid::kMostLevels
 
+  // Masks, their limits and saved level sets are compared by their address.
+  bool operator==(const Start&) const = default;
   // Whether it cannot be made without the function that drives the surface.
   [[nodiscard]] bool needs_speed() const { return levels > 1 || std::holds_alternative<SpeedStart>(from); }
   [[nodiscard]] bool empty() const { return std::holds_alternative<std::monostate>(from) && seeds.empty(); }

@@ -82,6 +82,26 @@ class AutosaveTest : public QObject {
     QVERIFY(std::filesystem::is_empty(folder / "recovery"));
   }
 
+  void a_copy_has_strokes_that_drive_nothing_yet() {
+    const TemporaryFolder folder;
+    const auto document = phantom_case();
+    document::Drive drive;
+    drive.strokes = std::make_shared<const solver::Strokes>(solver::Strokes{{11, 12, 500}, {}});
+    QCOMPARE(failure(document->level_set().set_drive(drive)), QString());
+    {
+      auto autosave = document::Autosave::create(folder.path(), "case-1").value();
+      go_on(*document, autosave);
+    }  // without finish()
+    const auto copies = document::find_recoverable(folder.path());
+    QCOMPARE(copies.size(), std::size_t{1});
+    const auto contents = document::load_session(copies[0].file);
+    QCOMPARE(failure(contents), QString());
+    const auto restored = document::restore_case(*contents, lumpy_volume(), solver::ExecutorKind::host, {});
+    QCOMPARE(failure(restored), QString());
+    QVERIFY((*restored)->level_set().drive().strokes);
+    QVERIFY(*(*restored)->level_set().drive().strokes == *drive.strokes);
+  }
+
   void the_older_generation_is_offered_when_the_newest_is_damaged_data() {
     QTest::addColumn<int>("damage");
     QTest::newRow("cut") << 0;

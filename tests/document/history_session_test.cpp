@@ -1,5 +1,6 @@
 // The history in session files: every state comes back, and bad files are refused.
 #include <QTest>
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -88,6 +89,25 @@ std::unique_ptr<document::Case> restored(const std::filesystem::path& file, cons
   return std::move(*made);
 }
 
+// Ends as an entry of its own.
+void paint_strokes(document::LevelSet& level_set, std::vector<std::int64_t> inside) {
+  document::Drive drive = level_set.drive();
+  drive.strokes = std::make_shared<const solver::Strokes>(solver::Strokes{std::move(inside), {}});
+  must(level_set.set_drive(drive));
+}
+
+void put_history(Entries& entries, const document::HistoryEntries& history) {
+  for (const document::ZipEntry& entry : history.entries()) {
+    std::string& bytes = entries[std::string(entry.name)];
+    bytes.clear();
+    for (std::size_t n = 0;; ++n) {
+      const auto piece = entry.piece(n);
+      if (piece.empty()) break;
+      bytes.append(reinterpret_cast<const char*>(piece.data()), piece.size());
+    }
+  }
+}
+
 // Changes of a good file that make it a bad one.
 using Spoil = std::function<void(Json&, Entries&)>;
 struct Bad {
@@ -135,6 +155,8 @@ std::vector<Bad> bad_files() {
       {"negative table", "is not there",
        [](Json&, Entries& e) { put<std::int32_t>(e["history.tables"], 3, -3); }},
       {"half a page", "pages", [](Json&, Entries& e) { e["history.pages"].resize(100); }},
+      {"wanted drive", "states[2].wanted_drive",
+       [](Json& j, Entries&) { j["states"][2]["wanted_drive"] = 5; }},
       {"nan", "phi is", [](Json&, Entries& e) { put(e["history.pages"], 700, std::nanf("")); }},
       {"beyond the band", "phi is", [](Json&, Entries& e) { put(e["history.pages"], 700, 9.0F); }},
   };
@@ -184,6 +206,80 @@ class HistorySessionTest : public QObject {
     }
     // Labels are as they were saved, in every state.
     QCOMPARE(read->labels().list().size(), std::size_t{1});
+  }
+
+  void every_state_has_its_strokes_also_where_they_drive_nothing() {
+    const TemporaryFolder folder;
+    const auto document = named_case();
+    document::LevelSet& level_set = document->level_set();
+    const std::uint64_t without = document->history().position();
+    paint_strokes(level_set, {3, 5, 8});
+    run(level_set, 4);
+    must(level_set.end_run());
+    paint_strokes(level_set, {3, 5, 8, 13});
+    run(level_set, 2);
+    must(level_set.end_run());
+    must(document->history().go_to(without));
+    must(document::save_session(*document, folder / "one.tidemark"));
+    // Once for the states that share them.
+    const Json json = Json::parse(entries_of(folder / "one.tidemark")["history.json"]);
+    const auto count = [&](const char* name) {
+      return std::count_if(json["states"].begin(), json["states"].end(),
+                           [&](const Json& state) { return state.contains(name); });
+    };
+    QCOMPARE(count("wanted_drive"), std::ptrdiff_t{2});
+    QCOMPARE(count("same_wanted_drive"), std::ptrdiff_t{2});
+    const auto read = restored(folder / "one.tidemark", *document);
+    QVERIFY(!read->level_set().drive().strokes);
+    const std::vector<document::HistoryState> before = document->history().states();
+    const std::vector<document::HistoryState> after = read->history().states();
+    QCOMPARE(after.size(), before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      must(document->history().go_to(before[i].id));
+      must(read->history().go_to(after[i].id));
+      const auto& then = level_set.drive().strokes;
+      const auto& now = read->level_set().drive().strokes;
+      QCOMPARE(now != nullptr, then != nullptr);
+      if (then) QVERIFY(*now == *then);
+    }
+  }
+
+  void a_start_in_levels_stays_apart_from_the_same_one_without() {
+    const TemporaryFolder folder;
+    const auto document = named_case();
+    document::Start coarse = seed_in(*document->volume());
+    coarse.levels = 2;
+    must(document->level_set().begin(coarse));
+    must(document->undo());
+    must(document::save_session(*document, folder / "one.tidemark"));
+    const auto read = restored(folder / "one.tidemark", *document);
+    QCOMPARE(read->level_set().recipe().start.levels, 1);
+    must(read->history().go_to(read->history().states().back().id));
+    QCOMPARE(read->level_set().recipe().start.levels, 2);
+  }
+
+  void dice_of_a_former_answer_is_not_saved() {
+    const TemporaryFolder folder;
+    const auto document = named_case();
+    document::LevelSet& level_set = document->level_set();
+    run(level_set, 8);
+    level_set.note({8, 1.0, 2.0, 3.0, 0.9});
+    must(level_set.end_run());
+    level_set.forget_dice();
+    run(level_set, 7);
+    level_set.note({15, 1.5, 2.5, 3.5, 0.1});
+    must(level_set.end_run());
+    must(document::save_session(*document, folder / "one.tidemark"));
+    const auto contents = document::load_session(folder / "one.tidemark");
+    QCOMPARE(failure(contents), QString());
+    bool has_present_one = false;
+    for (const document::SavedState& state : contents->history.states) {
+      for (const document::CurvePoint& point : *state.curve.points()) {
+        QCOMPARE(point.dice.has_value(), point.step == 15);
+        has_present_one |= point.dice == 0.1;
+      }
+    }
+    QVERIFY(has_present_one);
   }
 
   void a_restart_from_a_branch_leads_to_its_start() {
@@ -244,6 +340,47 @@ class HistorySessionTest : public QObject {
     QCOMPARE(failure(read->history().go_to(oldest)), QString());
     QCOMPARE(read->level_set().parameters().target,
              800.0 + made - static_cast<int>(document::SavedHistory::kMostStates));
+  }
+
+  // Where each state has many strokes of its own, the text of all of them would be too long to be read again.
+  void states_that_the_reader_has_no_room_for_are_the_farthest() {
+    const TemporaryFolder folder;
+    const auto document = named_case();
+    constexpr std::size_t kEntries = 24;
+    for (std::size_t i = 0; i < kEntries; ++i) {
+      std::vector<std::int64_t> inside;
+      const std::int64_t voxels = document->volume()->geometry.voxel_count();
+      for (auto offset = static_cast<std::int64_t>(i); offset < voxels; offset += 11)
+        inside.push_back(offset);
+      paint_strokes(document->level_set(), std::move(inside));
+    }
+    const auto contents = document::snapshot_of(*document);
+    QCOMPARE(failure(contents), QString());
+    const document::HistoryEntries whole = document::history_entries(*contents);
+    const auto parsed = JsonDocument::parse(whole.json, "whole");
+    QCOMPARE(failure(parsed), QString());
+    must(document::save_session(*document, folder / "one.tidemark"));
+    Entries entries = entries_of(folder / "one.tidemark");
+    QCOMPARE(entries["history.json"], whole.json);
+
+    const JsonLimits half_the_bytes{.bytes = whole.json.size() / 2};
+    const JsonLimits half_the_values{.values = std::size_t{parsed->end(0)} / 2};
+    for (const JsonLimits& limits : {half_the_bytes, half_the_values}) {
+      const document::HistoryEntries part = document::history_entries(*contents, limits);
+      QCOMPARE(failure(JsonDocument::parse(part.json, "part", limits)), QString());
+      const Json json = Json::parse(part.json);
+      const std::size_t kept = json["states"].size();
+      QVERIFY2(kept > kEntries / 4 && kept < kEntries, qPrintable(QString::number(kept)));
+      QCOMPARE(json["present"].get<std::size_t>(), kept - 1);
+      put_history(entries, part);
+      write_entries(folder / "part.tidemark", entries);
+      const auto read = restored(folder / "part.tidemark", *document);
+      const std::vector<document::HistoryState> states = read->history().states();
+      QCOMPARE(states.size(), kept);
+      must(read->history().go_to(states.front().id));
+      const auto oldest = static_cast<std::int64_t>(kEntries - kept);
+      QCOMPARE(read->level_set().drive().strokes->inside.front(), oldest);
+    }
   }
 
   void a_bad_history_is_refused_data() {

@@ -22,6 +22,37 @@ class HistoryTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void no_way_through_the_history_leads_to_dice_of_a_former_answer() {
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    run(level_set, 8);
+    level_set.note({8, 1.0, 2.0, 3.0, 0.9});
+    QCOMPARE(failure(level_set.end_run()), QString());
+    run(level_set, 4);
+    level_set.note({12, 1.5, 2.5, 3.5, 0.8});
+    QCOMPARE(failure(level_set.end_run()), QString());
+    level_set.forget_dice();
+    run(level_set, 3);
+    level_set.note({15, 2.0, 3.0, 4.0, 0.1});
+    QCOMPARE(failure(level_set.end_run()), QString());
+    const auto present_one_alone = [&] {
+      for (const document::CurvePoint& point : *level_set.curve().points()) {
+        if (point.dice.has_value() != (point.step == 15)) return false;
+      }
+      return true;
+    };
+    while (document->history().undo_description()) {
+      QCOMPARE(failure(document->undo()), QString());
+      QVERIFY(present_one_alone());
+    }
+    while (document->history().redo_description()) {
+      QCOMPARE(failure(document->redo()), QString());
+      QVERIFY(present_one_alone());
+    }
+    QCOMPARE(measured_steps(level_set), (std::vector<std::int64_t>{8, 12, 15}));
+    QVERIFY(level_set.curve().points()->back().dice == 0.1);
+  }
+
   void each_kind_of_change_can_be_taken_back_and_done_again_data() {
     QTest::addColumn<int>("kind");
     QTest::addColumn<QString>("text");

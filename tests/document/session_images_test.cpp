@@ -58,6 +58,13 @@ document::Drive learning(const Volume& volume, std::shared_ptr<const document::C
   return drive;
 }
 
+// As the engine does it.
+void learn(document::LevelSet& level_set, const document::Drive& drive) {
+  const auto speed = document::make_speed(drive, level_set.source(), level_set.parameters());
+  if (!speed) qFatal("%s", speed.error().message.c_str());
+  if (!level_set.set_drive(drive) || !level_set.set_speed(*speed)) qFatal("it is not driven");
+}
+
 // A folder with the image's file and the session of a case that learned from it.
 struct SavedCase {
   TemporaryFolder folder;
@@ -72,15 +79,15 @@ struct SavedCase {
     const auto image = image_at(file);
     document::LevelSet& level_set = document->level_set();
     run(level_set, 5);
-    const auto drive = learning(*document->volume(), image);
-    const auto speed = document::make_speed(drive, level_set.source(), level_set.parameters());
-    if (!speed) qFatal("%s", speed.error().message.c_str());
-    if (!level_set.set_drive(drive) || !level_set.set_speed(*speed)) qFatal("it is not driven");
+    learn(level_set, learning(*document->volume(), image));
     run(level_set, 10);
-    auto contents = document::snapshot_of(*document);
+    save(*document, {image});
+  }
+  void save(document::Case& saved, std::vector<std::shared_ptr<const document::CaseImage>> images) const {
+    auto contents = document::snapshot_of(saved);
     if (!contents) qFatal("%s", contents.error().message.c_str());
     contents->origin.phantom = "lumpy";
-    contents->images = {image};
+    contents->images = std::move(images);
     if (!document::write_session(*contents, session)) qFatal("no session could be written");
   }
 };
@@ -189,6 +196,36 @@ class SessionImagesTest : public QObject {
     QCOMPARE(problems.size(), std::size_t{1});
     QVERIFY(QString::fromStdString(problems.front()).contains("has other voxels now"));
     QVERIFY(!contents.images.front()->volume);
+  }
+
+  // The display has it no more.
+  void an_image_that_only_another_state_uses_is_found() {
+    const SavedCase saved;
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    const std::uint64_t without = document->history().position();
+    learn(level_set, learning(*document->volume(), image_at(saved.folder / "a/second.nrrd")));
+    run(level_set, 5);
+    QCOMPARE(failure(level_set.end_run()), QString());
+    QCOMPARE(failure(document->history().go_to(without)), QString());
+    saved.save(*document, {});
+    document::SessionContents contents = loaded(saved.session);
+    QVERIFY(contents.images.empty());
+    QCOMPARE(document::find_images(contents).size(), std::size_t{0});
+    QVERIFY(contents.images.empty());
+    const auto opened = restored(contents);
+    QCOMPARE(failure(opened->history().go_to(opened->history().states().back().id)), QString());
+    const auto& image = opened->level_set().drive().images.front();
+    QVERIFY(image->volume);
+    QCOMPARE(image->to_case[3].x, 1.0);
+    run(opened->level_set(), 3);
+    QVERIFY(opened->level_set().executor().speed());
+    // Without its file it is missed, once.
+    std::filesystem::remove(saved.folder / "a/second.nrrd");
+    contents = loaded(saved.session);
+    const auto problems = document::find_images(contents);
+    QCOMPARE(problems.size(), std::size_t{1});
+    QVERIFY(QString::fromStdString(problems.front()).startsWith("the image \"Second\" is missing: "));
   }
 
   void only_images_that_meet_the_grid_are_measured() {

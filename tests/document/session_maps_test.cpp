@@ -148,6 +148,58 @@ class SessionMapsTest : public QObject {
     QVERIFY(!contents.recipe.final_drive()->map->volume);
   }
 
+  void a_map_that_only_another_state_uses_is_found() {
+    const SavedCase saved;
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    const std::uint64_t without = document->history().position();
+    drive_by(level_set, saved.folder / "a/first.nrrd");
+    run(level_set, 5);
+    QCOMPARE(failure(level_set.end_run()), QString());
+    QCOMPARE(failure(document->history().go_to(without)), QString());
+    saved.save(*document);
+    document::SessionContents contents = loaded(saved.session);
+    QVERIFY(!contents.recipe.has_drive());
+    QCOMPARE(document::find_images(contents).size(), std::size_t{0});
+    const auto opened = restored(contents);
+    QCOMPARE(failure(opened->history().go_to(opened->history().states().back().id)), QString());
+    QVERIFY(opened->level_set().drive().map->volume);
+    run(opened->level_set(), 3);
+    QVERIFY(opened->level_set().executor().speed());
+    // Saved from there, its states have what they share once.
+    QCOMPARE(failure(opened->level_set().end_run()), QString());
+    const auto is_shared = [](const document::SavedHistory& history) {
+      const document::SavedState& last = history.states.back();
+      return last.recipe.events.front() == history.states[*last.parent].recipe.events.front();
+    };
+    saved.save(*opened);
+    document::SessionContents again = loaded(saved.session);
+    QVERIFY(is_shared(again.history));
+    QCOMPARE(document::find_images(again).size(), std::size_t{0});
+    QVERIFY(is_shared(again.history));
+    // Without its file it is missed, once.
+    std::filesystem::remove(saved.folder / "a/first.nrrd");
+    contents = loaded(saved.session);
+    QCOMPARE(document::find_images(contents).size(), std::size_t{1});
+  }
+
+  void a_map_that_waits_for_its_function_is_found() {
+    const SavedCase saved;
+    const auto document = begun_case();
+    document::Drive drive;
+    drive.map =
+        document::load_speed_map(saved.folder / "a/second.nrrd", document->volume()->geometry).value();
+    QCOMPARE(failure(document->level_set().set_drive(drive)), QString());
+    saved.save(*document);
+    document::SessionContents contents = loaded(saved.session);
+    QVERIFY(!contents.recipe.has_drive());
+    QCOMPARE(document::find_images(contents).size(), std::size_t{0});
+    const auto opened = restored(contents);
+    QVERIFY(opened->level_set().drive().map);
+    QCOMPARE(opened->level_set().drive().map->name, std::string("second.nrrd"));
+    QVERIFY(opened->level_set().drive().map->volume);
+  }
+
   void bad_places_are_refused_with_their_field() {
     const SavedCase saved;
     document::SessionContents contents = loaded(saved.session);

@@ -107,6 +107,89 @@ class SessionTest : public QObject {
     QVERIFY(values_of(after) == values_of(before));
   }
 
+  // They wait for strokes outside, or for the function that learns from them.
+  void strokes_that_drive_nothing_yet_come_back_data() {
+    QTest::addColumn<bool>("learns");
+    QTest::newRow("tent") << false;
+    QTest::newRow("examples") << true;
+  }
+  void strokes_that_drive_nothing_yet_come_back() {
+    QFETCH(bool, learns);
+    const TemporaryFolder folder;
+    const auto document = labelled_case();
+    document::Drive drive = document->level_set().drive();
+    drive.strokes = std::make_shared<const solver::Strokes>(solver::Strokes{{11, 12, 500}, {}});
+    if (learns) drive.setting.terms = {{"examples", {{"trees", 12.0}}}};
+    auto walls = std::make_shared<solver::Constraints>(document->volume()->geometry.size);
+    walls->set(document->volume()->geometry, ball_at(*document->volume(), {9, 0, 0}, 3.0),
+               solver::Constraint::wall);
+    drive.constraints = std::move(walls);
+    must(document->level_set().set_drive(drive));
+    must(document::save_session(*document, folder / "one.tidemark"));
+    const auto contents = document::load_session(folder / "one.tidemark");
+    QCOMPARE(failure(contents), QString());
+    QVERIFY(!contents->recipe.final_drive()->strokes);
+    const auto restored =
+        document::restore_case(*contents, document->volume(), solver::ExecutorKind::host, {});
+    QCOMPARE(failure(restored), QString());
+    document::LevelSet& after = (*restored)->level_set();
+    QVERIFY(after.drive().strokes);
+    QVERIFY(*after.drive().strokes == *drive.strokes);
+    QVERIFY(after.drive().setting == drive.setting);
+    QVERIFY(!(*restored)->changed_since_save());
+    // Until there is a function the tent goes on, and walls hold at once: they are the recipe's.
+    QVERIFY(!after.lacks_speed());
+    QVERIFY(after.drive().constraints);
+    QCOMPARE(after.drive().constraints, after.recipe().final_drive()->constraints);
+    // Saved again, nothing is lost.
+    must(document::save_session(**restored, folder / "two.tidemark"));
+    const auto again = document::load_session(folder / "two.tidemark");
+    QCOMPARE(failure(again), QString());
+    QVERIFY(again->wanted_drive);
+    QVERIFY(*again->wanted_drive->strokes == *drive.strokes);
+  }
+
+  void strokes_whose_function_is_not_learnt_yet_come_back() {
+    const TemporaryFolder folder;
+    const auto document = labelled_case();
+    document::LevelSet& level_set = document->level_set();
+    const Volume& volume = *document->volume();
+    solver::Strokes strokes;
+    for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); offset += 17) {
+      if (volume.value(offset) > 800.0F) strokes.inside.push_back(offset);
+      if (volume.value(offset) < 650.0F) strokes.outside.push_back(offset);
+    }
+    document::Drive drive;
+    drive.setting.terms = {{"examples", {{"trees", 12.0}}}};
+    drive.strokes = std::make_shared<const solver::Strokes>(strokes);
+    must(level_set.set_drive(drive));
+    const auto speed = document::make_speed(drive, level_set.source(), level_set.parameters());
+    QCOMPARE(failure(speed), QString());
+    must(level_set.set_speed(*speed));
+    run(level_set, 5);
+    must(level_set.end_run());
+    // One more, of which nothing is learnt before it is saved.
+    strokes.inside.pop_back();
+    drive.strokes = std::make_shared<const solver::Strokes>(strokes);
+    must(level_set.set_drive(drive));
+    must(document::save_session(*document, folder / "one.tidemark"));
+    const auto contents = document::load_session(folder / "one.tidemark");
+    QCOMPARE(failure(contents), QString());
+    const auto restored =
+        document::restore_case(*contents, document->volume(), solver::ExecutorKind::host, {});
+    QCOMPARE(failure(restored), QString());
+    document::LevelSet& after = (*restored)->level_set();
+    QVERIFY(*after.drive().strokes == strokes);
+    QVERIFY(after.lacks_speed());
+    // The function that the restored case has learnt is that of the new strokes.
+    const auto learnt = document::make_speed(after.drive(), after.source(), after.parameters());
+    QCOMPARE(failure(learnt), QString());
+    must(after.set_speed(*learnt));
+    QVERIFY(!after.lacks_speed());
+    QVERIFY(*after.recipe().final_drive()->strokes == strokes);
+    QVERIFY(!after.wanted_drive());
+  }
+
   void a_truth_from_a_file_comes_back() {
     const TemporaryFolder folder;
     const auto document = labelled_case();
