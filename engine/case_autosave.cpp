@@ -63,6 +63,8 @@ void CaseAutosave::follow() {
   if (was_modified_ && !proxy_.state().modified) {
     BackgroundJob::start(this, [copies = copies_](BackgroundJob&) { copies->drop(); })->abandon();
   }
+  // By an image or a truth, which are no edits of the history.
+  if (!was_modified_ && proxy_.state().modified) saved_step_ = -1;
   was_modified_ = proxy_.state().modified;
   if (soon_ || proxy_.state().edits >= saved_edits_ + kEdits) save_now();
 }

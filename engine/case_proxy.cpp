@@ -1,5 +1,6 @@
 #include "engine/case_proxy.h"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -29,6 +30,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;
+  saved_truth_ = own_truth();
   balance_ = std::make_unique<CaseBalance>(*this);
   passes_ = std::make_unique<CasePasses>(*this);
   CaseRunner::Receiver receiver;
@@ -40,6 +42,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
   post([](CaseRunner& runner, const Progress&) { return runner.open(); });
   connect(&display_, &Display::changed, this, &CaseProxy::use_images_of_display);
   connect(&display_, &Display::changed, this, &CaseProxy::show_distances);
+  connect(&display_, &Display::changed, this, &CaseProxy::follow_modified);
   const auto show = [this](const WantedMap::Map& map) {
     post([map](CaseRunner& runner, const Progress&) {
       runner.painter().set_distances(map);
@@ -70,6 +73,7 @@ void CaseProxy::compare_with(std::shared_ptr<const Mask> truth) {
   truth_ = std::move(truth);
   state_.dice.reset();
   use_truth();
+  follow_modified();
   post([truth = truth_](CaseRunner& runner, const Progress&) {
     runner.compare_with(truth);
     return Status();
@@ -99,26 +103,49 @@ std::uint64_t CaseProxy::new_gesture() {
 }
 
 void CaseProxy::post(Command command) {
-  ++edits_sent_;
-  runner_->post([this_edit = edits_sent_, command = std::move(command), done = edits_done_](
-                    CaseRunner& runner, const Progress& progress) -> Status {
-    *done = this_edit;
+  const auto carry_out = [opens = last_command_ == 0, command = std::move(command)](
+                             CaseRunner& runner, const Progress& progress) -> Status {
     if (const Error* obstacle = runner.obstacle()) return tl::unexpected<Error>(*obstacle);
-    if (!runner.opened() && this_edit > 1) return {};
+    if (!runner.opened() && !opens) return {};
     return command(runner, progress);
-  });
+  };
+  last_command_ = runner_->post(carry_out);
 }
 
 void CaseProxy::take(CaseState state) {
   state_ = std::move(state);
-  // While edits are under way, the user sees the wanted values.
-  if (*edits_done_ == edits_sent_) {
+  case_modified_ = state_.modified;
+  state_.modified = modified();
+  // While commands are under way, the user sees the wanted values.
+  if (state_.commands == last_command_) {
     wanted_parameters_ = state_.parameters;
     wanted_drive_ = state_.drive;
     show_images_of_drive();
   }
   comparison_.follow(state_);
   emit state_changed();
+}
+
+std::vector<std::shared_ptr<const document::CaseImage>> CaseProxy::images() const {
+  std::vector<std::shared_ptr<const document::CaseImage>> images;
+  for (const ShownImage& shown : display_.settings().images) images.push_back(shown.image);
+  return images;
+}
+
+// An image is read again, so that another one may be the same; an accepted registration moves it.
+bool CaseProxy::modified() const {
+  const auto is_same = [](const auto& a, const auto& b) {
+    return a->name == b->name && a->checksum == b->checksum && a->to_case == b->to_case;
+  };
+  const auto shown = images();
+  return case_modified_ || own_truth() != saved_truth_ ||
+         !std::is_permutation(shown.begin(), shown.end(), saved_images_.begin(), saved_images_.end(),
+                              is_same);
+}
+
+void CaseProxy::follow_modified() {
+  const bool now = modified();
+  if (std::exchange(state_.modified, now) != now) emit state_changed();
 }
 
 void CaseProxy::play() {
@@ -334,11 +361,9 @@ void CaseProxy::take_snapshot(std::string view_state,
                               std::function<void(std::shared_ptr<const Snapshot>)> answer,
                               std::function<void()> gave_up) {
   using Taken = Result<std::shared_ptr<const Snapshot>>;
-  std::vector<std::shared_ptr<const document::CaseImage>> images;
-  for (const ShownImage& shown : display_.settings().images) images.push_back(shown.image);
-  post([view_state = std::move(view_state), images = std::move(images),
-        truth = has_another_truth() ? truth_ : nullptr, answer = std::move(answer),
-        gave_up = std::move(gave_up), askers = askers_](CaseRunner& runner, const Progress&) -> Status {
+  post([view_state = std::move(view_state), images = images(), truth = own_truth(),
+        answer = std::move(answer), gave_up = std::move(gave_up),
+        askers = askers_](CaseRunner& runner, const Progress&) -> Status {
     const Taken taken = without_exceptions([&]() -> Taken {
       document::Case& document = runner.document();
       document.view_state = view_state;
@@ -359,6 +384,8 @@ void CaseProxy::take_snapshot(std::string view_state,
 }
 
 void CaseProxy::mark_saved(const Snapshot& snapshot) {
+  saved_images_ = snapshot.contents.images;
+  saved_truth_ = snapshot.contents.truth;
   post([position = snapshot.position](CaseRunner& runner, const Progress&) -> Status {
     runner.mark_saved(position);
     return {};

@@ -4,7 +4,6 @@
 
 #include <QObject>
 #include <QString>
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -147,7 +146,6 @@ class CaseProxy : public QObject {
   // outcome.
   void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels,
                       const QString& another = {});
-  void accept_surface_as(const QString& name, document::Take take = document::Take::free_voxels);
   // The labels become those regions. As a tool makes them: see label_finisher().
   void finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions, document::Take take);
   // A stroke of the brush: one entry of the history.
@@ -183,6 +181,10 @@ class CaseProxy : public QObject {
                      std::function<void()> gave_up = {});
   // A session file holds the snapshot of that position.
   void mark_saved(const Snapshot& snapshot);
+  // It holds these images, which the display gets next.
+  void set_saved_images(const std::vector<std::shared_ptr<const document::CaseImage>>& images) {
+    saved_images_ = images;
+  }
 
   // For runs of a sweep from the case's start; the answer comes as pick()'s does.
   void prepare_sweep(std::function<void(const Result<document::SweepStart>&)> answer);
@@ -213,6 +215,12 @@ class CaseProxy : public QObject {
   void show_distances();
   void show_images_of_drive();
   bool want(document::Drive& drive);
+  [[nodiscard]] std::vector<std::shared_ptr<const document::CaseImage>> images() const;
+  [[nodiscard]] std::shared_ptr<const Mask> own_truth() const {
+    return has_another_truth() ? truth_ : nullptr;
+  }
+  [[nodiscard]] bool modified() const;
+  void follow_modified();
   void set_playing(bool playing);
 
   Engine& engine_;
@@ -237,8 +245,11 @@ class CaseProxy : public QObject {
   std::int64_t steps_per_picture_ = 0;
   bool pause_at_convergence_ = true;
   std::optional<document::LeakRule> leak_rule_ = document::LeakRule{};
-  std::uint64_t edits_sent_ = 0;
-  std::shared_ptr<std::atomic<std::uint64_t>> edits_done_ = std::make_shared<std::atomic<std::uint64_t>>(0);
+  std::uint64_t last_command_ = 0;
+  bool case_modified_ = false;
+  // In the session file; they are none of the case's history.
+  std::vector<std::shared_ptr<const document::CaseImage>> saved_images_;
+  std::shared_ptr<const Mask> saved_truth_;
   std::unique_ptr<CasePasses> passes_;
 };
 

@@ -48,10 +48,6 @@ void CaseProxy::accept_surface(std::uint8_t label, document::Take take, const QS
   });
 }
 
-void CaseProxy::accept_surface_as(const QString& name, document::Take take) {
-  accept_surface(0, take, name);
-}
-
 void CaseProxy::finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions,
                               document::Take take) {
   post([regions = std::move(regions), take](CaseRunner& runner, const Progress&) {

@@ -24,16 +24,21 @@ CaseRunner::CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study,
   meter_.compare_with(restored_.truth(*study_));
 }
 
-void CaseRunner::post(Command command) {
+std::uint64_t CaseRunner::post(Command command) {
   engine_.interrupt(Priority::step, this);  // refinement can wait
-  auto job = [self = shared_from_this(), command = std::move(command)](const std::stop_token& stop) {
+  const std::uint64_t number = ++posted_;
+  auto job = [self = shared_from_this(), number, command = std::move(command)](const std::stop_token& stop) {
     const Progress progress{self->report(), stop};
     if (auto status = self->follow_graphics(); !status) self->report_failure(status.error());
     if (auto status = command(*self, progress); !status) self->report_failure(status.error());
+    self->carried_out_ = number;
     if (self->case_) self->show();
   };
-  engine_.post(Priority::edit, this, std::move(job),
-               [self = shared_from_this()](const Error& error) { self->recover(error); });
+  engine_.post(Priority::edit, this, std::move(job), [self = shared_from_this(), number](const Error& error) {
+    self->carried_out_ = number;
+    self->recover(error);
+  });
+  return number;
 }
 
 SpeedMaker::Report CaseRunner::report() const {
@@ -381,6 +386,7 @@ void CaseRunner::publish() {
   state.open_change = case_->history().open_state();
   state.modified = case_->changed_since_save() || restored_.rescued;
   state.edits = case_->history().edits();
+  state.commands = carried_out_;
   state.start_text = start_text(recipe.start);
   state.limit = recipe.start.limit();
   meter_.follow_labels(*case_);

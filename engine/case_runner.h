@@ -35,9 +35,10 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   CaseRunner(Engine& engine, std::shared_ptr<const LoadedStudy> study, solver::ExecutorKind executor,
              Receiver receiver, RestoredCase restored = {});
 
-  // Any thread. The command comes before all other jobs of the case; pictures, figures and state are brought
-  // up to date after it.
-  void post(Command command);
+  // The proxy's thread. The command comes before all other jobs of the case; pictures, figures and state are
+  // brought up to date after it. Returns its number, from 1: CaseState::commands has it once it is carried
+  // out.
+  std::uint64_t post(Command command);
   void add_view(const std::shared_ptr<ViewSlot>& slot) { painter_.add(slot); }
   void view_changed(const std::shared_ptr<ViewSlot>& slot);
 
@@ -154,6 +155,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   bool pause_at_convergence_ = true;
   bool measurement_waits_ = false;
   bool history_waits_ = false;
+  std::uint64_t posted_ = 0;       // commands; the proxy's thread
+  std::uint64_t carried_out_ = 0;  // the last of them
   std::uint64_t turn_ = 0;         // of the steps that wait: those of earlier ones are not wanted any more
   std::int64_t advances_ = 0;      // how often steps were computed
   std::int64_t stroke_steps_ = 0;  // by the function that learns from a stroke; 0: none

@@ -73,6 +73,7 @@ struct CaseState {
   std::uint64_t history_state = 0;  // of them, the present one or the one where the next begins
   std::optional<document::HistoryState> open_change;  // that goes on from it
   std::uint64_t edits = 0;                            // how much was done: grows with each edit
+  std::uint64_t commands = 0;                         // the last that is carried out: CaseRunner::post()
   bool modified = false;                              // something would be lost
   QString start_text;                                 // how it began
   std::shared_ptr<const solver::MotionLimit> limit;   // of a mask that is refined; null: none

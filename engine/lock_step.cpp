@@ -44,18 +44,25 @@ LockStep::Members LockStep::members() {
   return members;
 }
 
+// One without a surface, or that a fault has stopped, is not waited for.
+LockStep::Members LockStep::players() {
+  Members players = members();
+  std::erase_if(players, [](const auto& member) { return !member->playing(); });
+  return players;
+}
+
 Status LockStep::advance(CaseRunner& runner, const Progress& progress) {
-  const Members all = members();
-  const auto [last, first] = ends_of(all);
+  const Members moving = players();
+  const auto [last, first] = ends_of(moving);
   // Where all go: beyond the first once all are there.
   std::int64_t goal = first;
   if (first == last) {
-    if (std::all_of(all.begin(), all.end(), [](const auto& member) { return member->may_rest(); })) {
+    if (std::all_of(moving.begin(), moving.end(), [](const auto& member) { return member->may_rest(); })) {
       set_playing(false);
       return {};
     }
     leap_ = std::numeric_limits<std::int64_t>::max();
-    for (const auto& member : all) leap_ = std::min(leap_, member->steps_to_next_picture());
+    for (const auto& member : moving) leap_ = std::min(leap_, member->steps_to_next_picture());
     goal = first + leap_;
   }
   const std::int64_t steps = goal - step_of(runner);
@@ -63,10 +70,8 @@ Status LockStep::advance(CaseRunner& runner, const Progress& progress) {
 }
 
 void LockStep::set_playing(bool playing) {
-  const Members all = members();
-  const auto plays = [](const auto& member) { return member->playing(); };
-  if (!playing && std::any_of(all.begin(), all.end(), plays)) complete_leap(all);
-  for (const auto& member : all) {
+  if (!playing) complete_leap();
+  for (const auto& member : members()) {
     member->play_alone(playing);
     member->show();
   }
@@ -90,9 +95,10 @@ Status LockStep::step(std::int64_t steps, const Progress& progress) {
 }
 
 // One that has joined far behind the others stays there until they play again.
-void LockStep::complete_leap(const Members& all) const {
-  const std::int64_t first = ends_of(all).second;
-  for (const auto& member : all) {
+void LockStep::complete_leap() {
+  const Members moving = players();
+  const std::int64_t first = ends_of(moving).second;
+  for (const auto& member : moving) {
     const std::int64_t steps = first - step_of(*member);
     if (steps == 0 || steps > leap_) continue;
     if (auto status = member->advance(steps, {}); !status) member->report_failure(status.error());

@@ -12,7 +12,7 @@ namespace tidemark::engine {
 class CaseRunner;
 
 // Belongs to the engine's thread. A case that joins behind the others catches up first; those that are ahead
-// wait for it.
+// wait for it. One that does not play is not waited for.
 class LockStep : public std::enable_shared_from_this<LockStep> {
  public:
   void add(const std::shared_ptr<CaseRunner>& runner);
@@ -30,7 +30,8 @@ class LockStep : public std::enable_shared_from_this<LockStep> {
  private:
   using Members = std::vector<std::shared_ptr<CaseRunner>>;
   [[nodiscard]] Members members();
-  void complete_leap(const Members& all) const;
+  [[nodiscard]] Members players();
+  void complete_leap();
 
   std::vector<std::weak_ptr<CaseRunner>> members_;
   std::int64_t leap_ = 0;  // steps by which the first of them last went ahead

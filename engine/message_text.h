@@ -3,7 +3,9 @@
 
 #include <QCoreApplication>
 #include <QString>
+#include <QStringList>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 
@@ -18,6 +20,12 @@ inline QString message_text(const std::string& message) {
 }
 inline QString message_text(const Error& error) {
   return message_text(error.message);
+}
+// All of them, on one line; empty: none.
+inline QString message_text(const std::vector<std::string>& messages) {
+  QStringList texts;
+  for (const std::string& message : messages) texts << message_text(message);
+  return texts.join(QStringLiteral("; "));
 }
 
 }  // namespace tidemark::engine

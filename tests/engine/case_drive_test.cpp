@@ -242,6 +242,7 @@ class CaseDriveTest : public QObject {
     ball_->begin();
     const document::Drive drive = learning(200.0);  // takes a while to learn
     const auto rests = [&](std::int64_t step) {
+      ball_->wait_until_idle();  // the state of what was done last is there
       QTRY_VERIFY_WITH_TIMEOUT(!proxy_->state().speed_waits, kPatience);
       ball_->wait_until_idle();
       QTest::qWait(300);

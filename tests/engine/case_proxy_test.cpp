@@ -384,6 +384,44 @@ class CaseProxyTest : public QObject {
     engine::CaseProxy::play_in_lock_step({});
   }
 
+  // What was computed before it is published while it is carried out.
+  void a_wish_stays_until_it_is_carried_out() {
+    Fixture fixture;
+    engine::CaseProxy other(fixture.engine, ball_study(), solver::ExecutorKind::host);
+    begin_in_lock_step(fixture, other);
+    fixture.proxy.set_pause_at_convergence(false);
+    fixture.proxy.play();
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().playing, kPatience);
+    solver::Parameters wanted = fixture.proxy.parameters();
+    wanted.band = 4.0;
+    fixture.proxy.set_parameters(wanted);
+    int other_bands = 0;
+    QObject::connect(&fixture.proxy, &engine::CaseProxy::state_changed, &fixture.proxy,
+                     [&] { other_bands += fixture.proxy.parameters() == wanted ? 0 : 1; });
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().parameters == wanted, kPatience);
+    fixture.wait_until_idle();
+    QCOMPARE(other_bands, 0);
+    QVERIFY(fixture.proxy.parameters() == wanted);
+    engine::CaseProxy::play_in_lock_step({});
+  }
+
+  void one_without_a_surface_does_not_hold_the_others() {
+    Fixture fixture;
+    engine::CaseProxy other(fixture.engine, ball_study(), solver::ExecutorKind::host);
+    fixture.begin();
+    fixture.proxy.set_pause_at_convergence(false);
+    fixture.proxy.step(5);
+    fixture.wait_until_idle();
+    engine::CaseProxy::play_in_lock_step({&fixture.proxy, &other});
+    fixture.proxy.play();
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().step >= 100, kPatience);
+    fixture.proxy.pause();
+    fixture.wait_until_idle();
+    QVERIFY(!fixture.proxy.state().playing);
+    QVERIFY(!other.state().playing && !other.state().begun);
+    engine::CaseProxy::play_in_lock_step({});
+  }
+
   // A lesson plays one of them by itself.
   void a_case_that_leaves_the_others_does_not_hold_them() {
     Fixture fixture;
