@@ -27,22 +27,6 @@ bool can_be_written(const Start& start) {
          !std::holds_alternative<document::FieldStart>(start.from);
 }
 
-bool is_same(const Start& a, const Start& b) {
-  if (a.from.index() != b.from.index() || a.levels != b.levels) return false;
-  if (a.seeds != b.seeds || a.erasers != b.erasers) return false;
-  return std::visit(
-      [&](const auto& one) {
-        using Kind = std::decay_t<decltype(one)>;
-        if constexpr (std::is_same_v<Kind, document::MaskStart> ||
-                      std::is_same_v<Kind, document::FieldStart>) {
-          return false;
-        } else {
-          return one == std::get<Kind>(b.from);
-        }
-      },
-      a.from);
-}
-
 // How many steps the tries compute from which the part goes on.
 std::int64_t steps_before(const document::Lesson& lesson, std::size_t part) {
   std::int64_t steps = 0;
@@ -77,7 +61,7 @@ void take_start(const CaseSetup& setup, const Start* inherited, std::optional<St
   }
   const Start& without = inherited != nullptr ? *inherited : setup.phantoms_own;
   start.reset();
-  if (!is_same(setup.start, without)) start = setup.start;
+  if (setup.start != without) start = setup.start;
 }
 
 // Spheres that were drawn before the first step are seeds and erasers of the start. Those of `events` that

@@ -14,6 +14,13 @@ CaseArea::CaseArea(QWidget* parent) : QMdiArea(parent) {
   setTabsClosable(true);
   setTabsMovable(true);
   setDocumentMode(true);
+  connect(this, &QMdiArea::subWindowActivated, this, &CaseArea::follow_cover);
+}
+
+// The cases go after it, and say so.
+CaseArea::~CaseArea() {
+  disconnect(this);
+  for (QMdiSubWindow* child : subWindowList()) child->disconnect(this);
 }
 
 QMdiSubWindow* CaseArea::add(CaseWindow* window) {
@@ -24,6 +31,7 @@ QMdiSubWindow* CaseArea::add(CaseWindow* window) {
   connect(window, &QWidget::windowTitleChanged, child, &QWidget::setWindowTitle);
   child->setWindowTitle(window->windowTitle());
   child->setWindowIcon(case_mark(window->number()));
+  connect(child, &QMdiSubWindow::windowStateChanged, this, &CaseArea::follow_cover);
   return child;
 }
 
@@ -42,6 +50,14 @@ QList<CaseWindow*> CaseArea::cases() const {
     if (auto* window = qobject_cast<CaseWindow*>(child->widget())) cases << window;
   }
   return cases;
+}
+
+void CaseArea::follow_cover() {
+  const QMdiSubWindow* front = currentSubWindow();
+  for (CaseWindow* window : cases()) {
+    const bool is_front = front && window->parentWidget() == front;
+    window->set_covered(front && front->isMaximized() && !is_front);
+  }
 }
 
 void CaseArea::tile() {
@@ -73,6 +89,7 @@ void CaseArea::fill() {
     if (left.size() == 1) left.front()->showMaximized();
     if (left.size() > 1 && tiled_) tileSubWindows();
   }
+  follow_cover();
   emit case_closed();
 }
 

@@ -11,6 +11,7 @@ class CaseArea : public QMdiArea {
   Q_OBJECT
  public:
   explicit CaseArea(QWidget* parent = nullptr);
+  ~CaseArea() override;
 
   // The case is not seen yet: show_child() does that.
   QMdiSubWindow* add(CaseWindow* window);
@@ -30,6 +31,7 @@ class CaseArea : public QMdiArea {
 
  private:
   void fill();
+  void follow_cover();  // one that is maximised lies over the others
 
   bool tiled_ = true;  // else as the user has laid them
 };

@@ -1,7 +1,6 @@
 #include "ui/main/case_comparison.h"
 
 #include <QPointer>
-#include <QSignalBlocker>
 
 #include "engine/case_proxy.h"
 #include "ui/main/case_links.h"
@@ -34,12 +33,8 @@ void CaseComparison::compare_schemes(CaseWindow& original) {
     copy.proxy().set_parameters(parameters);
     const QList<CaseWindow*> both{original, &copy};
     links_.link(both);
-    CaseLinks::play_together(window_.cases(), false);
-    CaseLinks::play_together(both, true);
-    {
-      const QSignalBlocker these_alone(window_.actions().lock_step);
-      window_.actions().lock_step->setChecked(true);
-    }
+    links_.play_together(window_.cases(), false);
+    links_.play_together(both, true);
     original->proxy().play();
     // Once the copy is shown.
     const auto tile = [this] { window_.actions().tile->trigger(); };

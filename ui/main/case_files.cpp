@@ -1,9 +1,6 @@
 #include "ui/main/case_files.h"
 
-#include <QFileDialog>
 #include <QFileInfo>
-#include <QMessageBox>
-#include <QRegularExpression>
 #include <QStatusBar>
 
 #include "core/without_exceptions.h"
@@ -12,21 +9,11 @@
 #include "imaging/audit/event.h"
 #include "ui/main/main_window.h"
 #include "ui/results/file_name.h"
-#include "ui/settings.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/save_file.h"
 
 namespace tidemark::ui {
 namespace {
-
-// A name that has none of the endings of a filter ("NIfTI (*.nii.gz *.nii)") gets the first: the suffix says
-// which format is written, and a name may have dots of its own.
-QString with_suffix(const QString& file, const QString& chosen, const QString& all) {
-  static const QRegularExpression kEnding(QStringLiteral("\\*(\\.[\\w.]+)"));
-  for (auto endings = kEnding.globalMatch(all); endings.hasNext();) {
-    if (file.endsWith(endings.next().captured(1), Qt::CaseInsensitive)) return file;
-  }
-  return file + kEnding.match(chosen).captured(1);
-}
 
 // The work, which writes a file of a study.
 CaseFiles::Work audited(const std::shared_ptr<const engine::LoadedStudy>& study, const QString& file,
@@ -51,26 +38,17 @@ CaseFiles::~CaseFiles() {
 
 QString CaseFiles::ask_for_file(CaseWindow& window, const QString& title, const QString& suffixes) {
   const QPointer alive(&window);
-  QFileDialog dialog(&window_, title, settings::save_folder().get(), suffixes);
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.selectFile(file_name_of(window.proxy().study()));
-  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
-  const QString named = dialog.selectedFiles().first();
-  const QString file = with_suffix(named, dialog.selectedNameFilter(), suffixes);
-  // The dialog has asked about the name as it was typed.
-  if (file != named && QFileInfo::exists(file) &&
-      QMessageBox::question(&window_, title, tr("%1 exists. Replace it?").arg(file),
-                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes) {
-    return {};
-  }
-  if (!alive) return {};
-  settings::save_folder().set(QFileInfo(file).absolutePath());
-  return file;
+  const QString file = ask_where_to_save(window_, title, file_name_of(window.proxy().study()), suffixes);
+  if (!alive || file.isEmpty()) return {};
+  if (!is_of_study(window.proxy().study(), path_of(file))) return file;
+  window_.tell(tr("%1 is a file of the study, which is never written to: choose another name.").arg(file),
+               about_writing(window, file));
+  return {};
 }
 
-void CaseFiles::write(CaseWindow& window, const QString& file, Work work, std::function<void()> done) {
+void CaseFiles::write(CaseWindow& window, const QString& file, Work work, Ended ended) {
   run(about_writing(window, file), file, audited(window.proxy().shared_study(), file, std::move(work)),
-      std::move(done));
+      std::move(ended));
 }
 
 void CaseFiles::write_contents(CaseWindow& window, const QString& file,
@@ -82,18 +60,23 @@ void CaseFiles::write_contents(CaseWindow& window, const QString& file,
   });
 }
 
-void CaseFiles::run(const QString& about, const QString& file, Work work, std::function<void()> done) {
-  jobs_.push_back(
-      engine::BackgroundJob::start(this, [this, about, file, work = std::move(work), done](auto& job) {
-        const Status status = work();
-        job.deliver([this, about, file, status, done] {
-          if (!status) return window_.tell(engine::message_text(status.error()), about);
-          window_.dismiss_about(about);
-          window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
-          if (done) done();
-          emit written(file);
-        });
-      }));
+void CaseFiles::run(const QString& about, const QString& file, Work work, Ended ended) {
+  const auto end = [this, about, file, ended = std::move(ended)](const Status& status) {
+    if (status) {
+      window_.dismiss_about(about);
+      window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
+    } else {
+      window_.tell(engine::message_text(status.error()), about);
+    }
+    if (ended) ended(status.has_value());
+    if (status) emit written(file);
+  };
+  jobs_.push_back(engine::BackgroundJob::start(
+      this,
+      [work = std::move(work), end](engine::BackgroundJob& job) {
+        job.deliver([end, status = work()] { end(status); });
+      },
+      [end](const Error& error) { end(tl::unexpected<Error>(error)); }));
 }
 
 }  // namespace tidemark::ui

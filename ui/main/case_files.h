@@ -30,7 +30,8 @@ class CaseFiles : public QObject {
   [[nodiscard]] QString ask_for_file(CaseWindow& window, const QString& title, const QString& suffixes);
 
   using Work = std::function<Status()>;
-  void write(CaseWindow& window, const QString& file, Work work, std::function<void()> done = {});
+  using Ended = std::function<void(bool written)>;
+  void write(CaseWindow& window, const QString& file, Work work, Ended ended = {});
   // From what the case is like now.
   void write_contents(CaseWindow& window, const QString& file,
                       std::function<Status(const document::SessionContents&)> work);
@@ -39,7 +40,7 @@ class CaseFiles : public QObject {
   void written(const QString& file);
 
  private:
-  void run(const QString& about, const QString& file, Work work, std::function<void()> done);
+  void run(const QString& about, const QString& file, Work work, Ended ended);
 
   MainWindow& window_;
   std::vector<std::shared_ptr<engine::BackgroundJob>> jobs_;

@@ -2,7 +2,7 @@
 
 #include <QScopedValueRollback>
 #include <algorithm>
-#include <glm/vector_relational.hpp>
+#include <utility>
 #include <vector>
 
 #include "ui/main/parameter_difference.h"
@@ -18,12 +18,6 @@ bool have_same_values(const engine::CaseProxy& a, const engine::CaseProxy& b) {
            a.study().origin.series_uid == b.study().origin.series_uid;
   }
   return a.volume().modality == b.volume().modality && a.volume().unit == b.volume().unit;
-}
-
-bool is_within(const Geometry& grid, const glm::dvec3& place_mm) {
-  const glm::dvec3 voxel = grid.to_voxel(place_mm);
-  return glm::all(glm::greaterThanEqual(voxel, glm::dvec3(-0.5))) &&
-         glm::all(glm::lessThanEqual(voxel, glm::dvec3(grid.size) - 0.5));
 }
 
 }  // namespace
@@ -61,10 +55,11 @@ void CaseLinks::show_differences() {
 void CaseLinks::play_together(const QList<CaseWindow*>& windows, bool together) {
   std::vector<engine::CaseProxy*> proxies;
   for (CaseWindow* window : windows) {
-    if (!together) window->proxy().leave_lock_step();
+    if (!together && window->proxy().in_lock_step()) window->proxy().leave_lock_step();
     proxies.push_back(&window->proxy());
   }
-  if (together) engine::CaseProxy::play_in_lock_step(proxies);
+  if (together && proxies.size() > 1) engine::CaseProxy::play_in_lock_step(proxies);
+  emit changed();
 }
 
 bool CaseLinks::any_in_lock_step(const QList<CaseWindow*>& windows) {
@@ -88,14 +83,14 @@ void CaseLinks::follow(CaseWindow& moved) {
     window->proxy().display().change([&](engine::DisplaySettings& to) {
       // Beside a study, which may be another patient's, there is nothing of it to see.
       const Geometry& grid = window->proxy().volume().geometry;
-      if (is_within(grid, from.cursor_mm)) to.cursor_mm = from.cursor_mm;
-      if (is_within(grid, from.slice_centre_mm)) to.slice_centre_mm = from.slice_centre_mm;
+      if (grid.covers(from.cursor_mm)) to.cursor_mm = from.cursor_mm;
+      if (grid.covers(from.slice_centre_mm)) to.slice_centre_mm = from.slice_centre_mm;
       to.slice_zoom = from.slice_zoom;
       to.oblique = from.oblique;
       if (same_values) to.window = from.window;
       const auto focus_mm = to.camera.focus_mm;
       to.camera = from.camera;
-      if (to.camera.focus_mm && !is_within(grid, *to.camera.focus_mm)) to.camera.focus_mm = focus_mm;
+      if (to.camera.focus_mm && !grid.covers(*to.camera.focus_mm)) to.camera.focus_mm = focus_mm;
       to.clip_on = from.clip_on;
       to.clip = from.clip;
     });

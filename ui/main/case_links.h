@@ -20,8 +20,8 @@ class CaseLinks : public QObject {
   void link(const QList<CaseWindow*>& windows);
   void unlink() { link({}); }
 
-  // Whether they play and step together.
-  static void play_together(const QList<CaseWindow*>& windows, bool together);
+  // Whether they play and step together, of which one alone has no use.
+  void play_together(const QList<CaseWindow*>& windows, bool together);
   static bool any_in_lock_step(const QList<CaseWindow*>& windows);  // two at least
 
  signals:

@@ -134,7 +134,9 @@ void CaseResults::read_next() {
   if (!next.window) return end_reading();
   progress_->begin(QFileInfo(next.file).fileName());
   progress_->show();
-  jobs_.read_labels(path_of(next.file), next.window->proxy().volume().geometry, next.only_results);
+  const engine::CaseProxy& proxy = next.window->proxy();
+  jobs_.read_labels(path_of(next.file), proxy.volume().geometry, next.only_results,
+                    proxy.study().frame_of_reference_uid);
 }
 
 void CaseResults::end_reading(const QString& problem) {
@@ -152,9 +154,8 @@ void CaseResults::add(const std::shared_ptr<const imaging::Segments>& segments) 
     const QString name = QFileInfo(waiting_.front().file).fileName();
     window_.statusBar()->showMessage(
         tr("Read %n labels from %1", nullptr, static_cast<int>(segments->list.size())).arg(name), kShownMs);
-    QStringList changes;
-    for (const std::string& change : segments->changes) changes << engine::message_text(change);
-    if (!changes.isEmpty()) window_.tell(tr("%1: %2").arg(name, changes.join(QStringLiteral("; "))));
+    const QString changes = engine::message_text(segments->changes);
+    if (!changes.isEmpty()) window_.tell(tr("%1: %2").arg(name, changes));
   }
   end_reading();
 }

@@ -170,6 +170,15 @@ void CaseWindow::set_difference(const QString& difference) {
   emit mark_changed();
 }
 
+void CaseWindow::set_covered(bool covered) {
+  covered_ = covered;
+  follow_cover();
+}
+
+void CaseWindow::follow_cover() {
+  for (QDockWidget* dock : docks_) view_of(dock)->set_covered(covered_ && !dock->isFloating());
+}
+
 void CaseWindow::follow_state() {
   setWindowTitle(title_of(*proxy_) + QStringLiteral("[*]"));
   setWindowModified(proxy_->state().modified);
@@ -211,7 +220,11 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind, int number) {
   connect(bar, &ViewBar::float_wanted, dock, [dock] { dock->setFloating(!dock->isFloating()); });
   connect(bar, &ViewBar::maximise_wanted, this, [this, dock] { toggle_maximised(dock); });
   connect(view, &PictureView::maximise_wanted, this, [this, dock] { toggle_maximised(dock); });
-  connect(view, &PictureView::activated, this, [this, view] { active_ = view; });
+  connect(view, &PictureView::activated, this, [this, view, dock] {
+    active_ = view;
+    // To the MDI area a window of its own is none of the case's.
+    if (dock->isFloating()) emit activation_wanted(*this);
+  });
   connect(view, &PictureView::menu_wanted, this, [this, view](QPoint at, std::optional<glm::dvec3> place_mm) {
     make_view_menu(*view, actions_, place_mm)->popup(view->mapToGlobal(at));
   });
@@ -221,6 +234,7 @@ QDockWidget* CaseWindow::make_dock(ViewKind kind, int number) {
       emit place_panel_wanted();
     });
   }
+  connect(dock, &QDockWidget::topLevelChanged, this, &CaseWindow::follow_cover);
   docks_ << dock;
   return dock;
 }
@@ -442,6 +456,7 @@ Status CaseWindow::restore_view(const document::SessionContents& contents) {
   if (const auto& drive = contents.recipe.final_drive(); drive && document::uses_images(drive->setting))
     engine::use_images(settings.images, drive->images);
   auto shown = engine::display_settings(state["display"].toString("{}").toStdString(), settings);
+  proxy_->set_saved_images(contents.images);
   proxy_->display().set(shown ? *shown : settings);
   return shown ? Status() : pass_on(shown);
 }

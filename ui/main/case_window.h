@@ -52,6 +52,8 @@ class CaseWindow : public QMainWindow {
   void set_number(int number);
   [[nodiscard]] bool linked() const { return linked_; }
   void set_linked(bool linked);
+  // Another case's window lies over this one, but for views in windows of their own: nothing is drawn for it.
+  void set_covered(bool covered);
   // In which parameters it differs from the cases that it is linked to; empty: in none.
   [[nodiscard]] const QString& difference() const { return difference_; }
   void set_difference(const QString& difference);
@@ -86,6 +88,8 @@ class CaseWindow : public QMainWindow {
  signals:
   // The number changed, or whether the case is linked, or how it differs from the others.
   void mark_changed();
+  // A view in a window of its own was clicked, or given the keyboard.
+  void activation_wanted(CaseWindow& window);
   // The panel with all ways to begin.
   void place_panel_wanted();
   // The case may go: nothing would be lost, or the user does not mind.
@@ -104,6 +108,7 @@ class CaseWindow : public QMainWindow {
   QDockWidget* dock(ViewKind kind);  // one that is there, else a new one
   void toggle_maximised(QDockWidget* dock);
   void follow_state();
+  void follow_cover();
   [[nodiscard]] QByteArray arrangement() const;
 
   std::unique_ptr<engine::CaseProxy> proxy_;
@@ -113,6 +118,7 @@ class CaseWindow : public QMainWindow {
   DockShares* shares_ = nullptr;
   int number_ = 1;
   bool linked_ = false;
+  bool covered_ = false;
   QString difference_;
   int docks_made_ = 0;  // for names
   ViewLayout layout_ = ViewLayout::paper;

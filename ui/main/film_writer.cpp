@@ -46,7 +46,13 @@ FilmWriter::FilmWriter(MainWindow& window, CaseFiles& files)
   });
 }
 
+bool FilmWriter::may_begin() {
+  if (jobs_.busy()) window_.tell(tr("A film is being written already."), kAboutFilms);
+  return !jobs_.busy();
+}
+
 void FilmWriter::ask_and_write(CaseWindow& window) {
+  if (!may_begin()) return;
   const QString file = files_.ask_for_file(window, tr("Export a film of the evolution"), tr("GIF (*.gif)"));
   if (!file.isEmpty()) write(window, file);
 }
@@ -58,6 +64,7 @@ void FilmWriter::write(CaseWindow& window, const QString& file) {
   window.proxy().take_snapshot(
       window.view_state(), [this, file, size, wanted = view->wanted(),
                             study = window.proxy().shared_study()](const auto& snapshot) {
+        if (!may_begin()) return;
         file_ = file;
         progress_->begin(QFileInfo(file).fileName());
         progress_->show();

@@ -12,7 +12,7 @@ class CaseFiles;
 class LoadingView;
 class MainWindow;
 
-// One film at a time: the next gives up the one before.
+// One film at a time: no other one begins before it is written or given up.
 class FilmWriter : public QObject {
   Q_OBJECT
  public:
@@ -22,11 +22,13 @@ class FilmWriter : public QObject {
   void write(CaseWindow& window, const QString& file);
 
  private:
+  [[nodiscard]] bool may_begin();  // says why not
+
   MainWindow& window_;
   CaseFiles& files_;
   engine::ResultJobs jobs_;
   LoadingView* progress_;
-  QString file_;
+  QString file_;  // that is being written
 };
 
 }  // namespace tidemark::ui

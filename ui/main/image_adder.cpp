@@ -1,7 +1,10 @@
 #include "ui/main/image_adder.h"
 
 #include <QFileDialog>
+#include <QPointer>
 #include <QStatusBar>
+#include <memory>
+#include <vector>
 
 #include "engine/background_job.h"
 #include "engine/message_text.h"
@@ -31,15 +34,96 @@ bool overlap(const document::CaseImage& image, const Geometry& study) {
 
 }  // namespace
 
-ImageAdder::ImageAdder(MainWindow& window)
-    : QObject(&window),
+// The images of one case: it need not be the active one any more when they have been read.
+class ImageAdder::OfCase : public QObject {
+ public:
+  OfCase(MainWindow& window, CaseWindow& into);
+  ~OfCase() override;
+
+  [[nodiscard]] StudyOpener& opener() { return *opener_; }
+
+ private:
+  // Beside the user interface: the checksum, and whether it meets the study.
+  void look_at(const std::shared_ptr<const engine::LoadedStudy>& loaded);
+  void refuse(const engine::LoadedStudy& loaded);
+  void add(const engine::LoadedStudy& loaded, const engine::ShownImage& shown);
+
+  MainWindow& window_;
+  CaseWindow& into_;
+  StudyOpener* opener_;
+  QPointer<LoadingView> progress_;                            // the status bar's
+  std::vector<std::shared_ptr<engine::BackgroundJob>> jobs_;  // that look at images
+};
+
+ImageAdder::OfCase::OfCase(MainWindow& window, CaseWindow& into)
+    : QObject(&into),
       window_(window),
-      opener_(new StudyOpener(&window)),
+      into_(into),
+      opener_(new StudyOpener(&into)),
       progress_(new LoadingView(LoadingView::Shape::line)) {
   progress_->hide();
   window.statusBar()->addPermanentWidget(progress_);
   opener_->set_previews_wanted(false);
-  connect_opener();
+  connect(opener_, &StudyOpener::began, progress_, [this](const QString& what) {
+    progress_->begin(what);
+    progress_->show();
+  });
+  connect(opener_, &StudyOpener::progressed, progress_, &LoadingView::set_progress);
+  connect(opener_, &StudyOpener::ended, progress_, &QWidget::hide);
+  connect(progress_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
+  connect(opener_, &StudyOpener::opened, this, &OfCase::look_at);
+  connect(opener_, &StudyOpener::failed, this, [this](const QString& message) {
+    progress_->hide();
+    window_.tell(message, kAboutImages);
+  });
+}
+
+ImageAdder::OfCase::~OfCase() {
+  for (const auto& job : jobs_) job->abandon();
+  delete progress_;
+}
+
+void ImageAdder::OfCase::look_at(const std::shared_ptr<const engine::LoadedStudy>& loaded) {
+  const auto failed = [this](const Error& error) { window_.tell(engine::message_text(error), kAboutImages); };
+  jobs_.push_back(engine::BackgroundJob::start(
+      this,
+      [this, loaded, grid = into_.proxy().volume().geometry](engine::BackgroundJob& job) {
+        const engine::ShownImage shown = engine::shown_image(*loaded, job.stop());
+        const bool meets = overlap(*shown.image, grid);
+        job.deliver([this, loaded, shown, meets] { meets ? add(*loaded, shown) : refuse(*loaded); });
+      },
+      failed));
+}
+
+void ImageAdder::OfCase::refuse(const engine::LoadedStudy& loaded) {
+  window_.tell(
+      ImageAdder::tr("%1 lies elsewhere in the patient than the study: its %2 share no place with the "
+                     "study's %3.")
+          .arg(loaded.name, engine::message_text(imaging::describe(loaded.volume->geometry)),
+               engine::message_text(imaging::describe(into_.proxy().volume().geometry))),
+      kAboutImages);
+}
+
+void ImageAdder::OfCase::add(const engine::LoadedStudy& loaded, const engine::ShownImage& shown) {
+  engine::CaseProxy& proxy = into_.proxy();
+  proxy.display().change(
+      [&](engine::DisplaySettings& settings) { engine::add_image(settings.images, shown); });
+  if (&into_ == window_.active_case()) window_.panels().show("display");
+  if (engine::is_placed(*shown.image, proxy.study())) return window_.dismiss_about(kAboutImages);
+  const bool differs =
+      !loaded.frame_of_reference_uid.empty() && !proxy.study().frame_of_reference_uid.empty();
+  window_.tell(
+      differs ? ImageAdder::tr("%1 has another frame of reference than the study: the patient may have moved "
+                               "between them. Compare them before you rely on their places.")
+                    .arg(loaded.name)
+              : ImageAdder::tr(
+                    "It is not known whether %1 has the study's frame of reference. Compare them before "
+                    "you rely on their places.")
+                    .arg(loaded.name),
+      kAboutImages);
+}
+
+ImageAdder::ImageAdder(MainWindow& window) : QObject(&window), window_(window) {
   const auto with_case = [this](QAction* action, auto act) {
     connect(action, &QAction::triggered, this, [this, act] {
       if (CaseWindow* active = window_.active_case()) (this->*act)(*active);
@@ -49,23 +133,13 @@ ImageAdder::ImageAdder(MainWindow& window)
   with_case(window.actions().add_series, &ImageAdder::ask_for_series);
 }
 
-ImageAdder::~ImageAdder() {
-  if (job_) job_->abandon();
-}
-
-void ImageAdder::connect_opener() {
-  connect(opener_, &StudyOpener::began, progress_, [this](const QString& what) {
-    progress_->begin(what);
-    progress_->show();
-  });
-  connect(opener_, &StudyOpener::progressed, progress_, &LoadingView::set_progress);
-  connect(opener_, &StudyOpener::ended, progress_, &QWidget::hide);
-  connect(progress_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
-  connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { look_at(study); });
-  connect(opener_, &StudyOpener::failed, this, [this](const QString& message) {
-    progress_->hide();
-    window_.tell(message, kAboutImages);
-  });
+ImageAdder::OfCase& ImageAdder::of(CaseWindow& into) {
+  OfCase*& known = of_cases_[&into];
+  if (known == nullptr) {
+    known = new OfCase(window_, into);
+    connect(known, &QObject::destroyed, this, [this, key = &into] { of_cases_.remove(key); });
+  }
+  return *known;
 }
 
 void ImageAdder::ask_for_file(CaseWindow& into) {
@@ -85,55 +159,11 @@ void ImageAdder::ask_for_series(CaseWindow& into) {
   const auto& origin = into.proxy().origin().path;
   if (origin.empty())
     return window_.tell(tr("This study was made here: it has no other series."), kAboutImages);
-  into_ = &into;
-  opener_->open(QString::fromStdString(origin.string()), StudyOpener::Ask::always);
+  of(into).opener().open(QString::fromStdString(origin.string()), StudyOpener::Ask::always);
 }
 
 void ImageAdder::add_file(CaseWindow& into, const QString& path) {
-  into_ = &into;
-  opener_->open(path);
-}
-
-void ImageAdder::look_at(const std::shared_ptr<const engine::LoadedStudy>& loaded) {
-  if (!into_) return;
-  if (job_) job_->abandon();
-  const auto failed = [this](const Error& error) { window_.tell(engine::message_text(error), kAboutImages); };
-  job_ = engine::BackgroundJob::start(
-      this,
-      [this, loaded, into = into_, grid = into_->proxy().volume().geometry](engine::BackgroundJob& job) {
-        const engine::ShownImage shown = engine::shown_image(*loaded, job.stop());
-        const bool meets = overlap(*shown.image, grid);
-        job.deliver([this, loaded, into, shown, meets] {
-          if (into == into_ && into) meets ? add(*loaded, shown) : refuse(*loaded);
-        });
-      },
-      failed);
-}
-
-void ImageAdder::refuse(const engine::LoadedStudy& loaded) {
-  window_.tell(tr("%1 lies elsewhere in the patient than the study: its %2 share no place with the "
-                  "study's %3.")
-                   .arg(loaded.name, engine::message_text(imaging::describe(loaded.volume->geometry)),
-                        engine::message_text(imaging::describe(into_->proxy().volume().geometry))),
-               kAboutImages);
-}
-
-void ImageAdder::add(const engine::LoadedStudy& loaded, const engine::ShownImage& shown) {
-  engine::CaseProxy& proxy = into_->proxy();
-  proxy.display().change(
-      [&](engine::DisplaySettings& settings) { engine::add_image(settings.images, shown); });
-  window_.panels().show("display");
-  if (engine::is_placed(*shown.image, proxy.study())) return window_.dismiss_about(kAboutImages);
-  const bool differs =
-      !loaded.frame_of_reference_uid.empty() && !proxy.study().frame_of_reference_uid.empty();
-  window_.tell(differs
-                   ? tr("%1 has another frame of reference than the study: the patient may have moved "
-                        "between them. Compare them before you rely on their places.")
-                         .arg(loaded.name)
-                   : tr("It is not known whether %1 has the study's frame of reference. Compare them before "
-                        "you rely on their places.")
-                         .arg(loaded.name),
-               kAboutImages);
+  of(into).opener().open(path);
 }
 
 }  // namespace tidemark::ui

@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
-#include <QKeyEvent>
 #include <QMdiSubWindow>
 #include <QMimeData>
 #include <QSet>
@@ -85,6 +84,7 @@ MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(pa
   make_tool_bar(*this, *actions_);
   results_ = new CaseResults(*this);
   new TruthReader(*this);
+  new OwnKeys(this);
   images_ = new ImageAdder(*this);
   connect_case_actions(*this);
   connect_files();
@@ -152,6 +152,7 @@ void MainWindow::connect_files() {
   connect(actions_->open_session, &QAction::triggered, session_reader_, &SessionReader::ask_and_open);
   connect(session_reader_, &SessionReader::opened, this, &MainWindow::remember);
   connect(session_writer_, &SessionWriter::saved, this, &MainWindow::remember);
+  connect(session_writer_, &SessionWriter::not_saved, this, [this] { quitting_ = false; });
   connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
 }
 
@@ -235,6 +236,11 @@ QMdiSubWindow* MainWindow::place(CaseWindow* window) {
   new CaseMessages(*window, *messages_);  // its children
   new LeakMessage(*window, *messages_);
   connect(window, &CaseWindow::close_wanted, session_writer_, &SessionWriter::close);
+  connect(window, &CaseWindow::activation_wanted, this, [this](CaseWindow& wanted) {
+    const QPointer<QWidget> keyboard = QApplication::focusWidget();
+    bring_to_front(wanted);
+    if (keyboard) keyboard->setFocus();
+  });
   connect(window, &CaseWindow::place_panel_wanted, this, [this] { panels_->show("initialise"); });
   return area_->add(window);
 }
@@ -243,7 +249,6 @@ MainWindow::Kept MainWindow::keep() {
   keep_arrangement();
   Kept kept;
   kept.tabs = actions_->tabs->isChecked();
-  kept.lock_step = actions_->lock_step->isChecked();
   kept.panels_hidden = actions_->hide_interface->isChecked();
   kept.large_type = teaching_->large_type();
   kept.executor = executor_;
@@ -280,18 +285,12 @@ void MainWindow::take_over(Kept kept) {
   QList<CaseWindow*> linked;
   for (const qsizetype place : kept.linked) linked << taken[place];
   links_->link(linked);
-  {
-    const QSignalBlocker as_they_play(actions_->lock_step);
-    actions_->lock_step->setChecked(kept.lock_step);
-  }
   if (!taken.isEmpty()) centre_->setCurrentWidget(area_);
   if (kept.active >= 0) bring_to_front(*taken[kept.active]);
   cohort_->take_over(kept.cohort);
   if (kept.lesson) teaching_->take_over(std::move(kept.lesson));
   teaching_->set_large_type(kept.large_type);
   actions_->hide_interface->setChecked(kept.panels_hidden);
-  const QSignalBlocker as_it_stands(actions_->full_screen);
-  actions_->full_screen->setChecked(isFullScreen());
 }
 
 void MainWindow::show_case(QMdiSubWindow& child, const engine::LoadedStudy& study,
@@ -331,7 +330,9 @@ CaseWindow* MainWindow::active_case() const {
 
 void MainWindow::bring_to_front(CaseWindow& window) {
   auto* child = static_cast<QMdiSubWindow*>(window.parentWidget());
-  if (child->isVisible()) area_->setActiveSubWindow(child);
+  if (!child->isVisible()) return;
+  if (child->isMinimized()) child->showNormal();
+  area_->setActiveSubWindow(child);
 }
 
 QList<CaseWindow*> MainWindow::cases() const {
@@ -372,12 +373,14 @@ void MainWindow::activate(QMdiSubWindow* child) {
 void MainWindow::follow_case() {
   actions_->follow(active_ ? &active_->proxy() : nullptr);
   actions_->link->setChecked(active_ && active_->linked());
+  actions_->lock_step->setChecked(active_ && active_->proxy().in_lock_step() &&
+                                  links_->any_in_lock_step(cases()));
   cohort_->follow_case();
 }
 
 void MainWindow::connect_views() {
   connect(actions_->hide_interface, &QAction::toggled, panels_, &PanelDocks::set_hidden);
-  connect(actions_->full_screen, &QAction::toggled, this, [this](bool full) {
+  connect(actions_->full_screen, &QAction::triggered, this, [this](bool full) {
     // A window that was maximised is so again afterwards.
     setWindowState(windowState().setFlag(Qt::WindowFullScreen, full));
   });
@@ -403,13 +406,13 @@ void MainWindow::connect_windows() {
   connect(actions_->link, &QAction::triggered, this,
           [this](bool linked) { links_->link(linked ? cases() : QList<CaseWindow*>{}); });
   connect(links_, &CaseLinks::changed, this, &MainWindow::follow_case);
-  connect(actions_->lock_step, &QAction::toggled, this,
+  connect(actions_->lock_step, &QAction::triggered, this,
           [this](bool together) { links_->play_together(cases(), together); });
 }
 
 // One case alone is in no lock-step.
 void MainWindow::follow_closing() {
-  if (!links_->any_in_lock_step(cases())) actions_->lock_step->setChecked(false);
+  if (!links_->any_in_lock_step(cases())) links_->play_together(cases(), false);
 }
 
 void MainWindow::connect_help() {
@@ -425,8 +428,12 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   if (!may_give_up_work(*this) || !cohort_->may_close() || !teaching_->may_close()) return event->ignore();
   area_->closeAllSubWindows();
   if (!area_->subWindowList().isEmpty()) {
-    // The user keeps a case open, or saves one; closing is tried again after that.
-    quitting_ = session_writer_->closes_later();
+    // Where the rest closes once it is saved, closing is tried again after that. A case that the user keeps
+    // open keeps the program open.
+    const QList<CaseWindow*> rest = cases();
+    quitting_ = std::all_of(rest.begin(), rest.end(), [this](const CaseWindow* window) {
+      return session_writer_->closes_later(*window);
+    });
     return event->ignore();
   }
   keep_arrangement();
@@ -438,12 +445,10 @@ void MainWindow::keep_arrangement() const {
   settings::window_geometry().set(saveGeometry());
 }
 
-bool MainWindow::event(QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride) {
-    const auto& key = *static_cast<const QKeyEvent*>(event);
-    if (owns_key(QApplication::focusWidget(), key)) event->accept();
-  }
-  return QMainWindow::event(event);
+// The arrangement of the last time and the window system, too, choose full screen.
+void MainWindow::changeEvent(QEvent* event) {
+  QMainWindow::changeEvent(event);
+  if (event->type() == QEvent::WindowStateChange) actions_->full_screen->setChecked(isFullScreen());
 }
 
 bool MainWindow::focusNextPrevChild(bool next) {

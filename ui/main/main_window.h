@@ -61,7 +61,6 @@ class MainWindow : public QMainWindow {
     qsizetype active = -1;    // its place among the cases
     QList<qsizetype> linked;  // likewise
     bool tabs = false;
-    bool lock_step = false;
     bool panels_hidden = false;
     bool large_type = false;
     solver::ExecutorKind executor = solver::ExecutorKind::automatic;  // of new cases
@@ -97,8 +96,7 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
-  // Space presses the button that has the keyboard, before it is the key of an action.
-  bool event(QEvent* event) override;
+  void changeEvent(QEvent* event) override;
   // Qt asks for it at Tab, and when the control that has the keyboard is hidden or becomes grey. A case
   // window that gets the keyboard becomes the active one, so that the other cases are passed over.
   bool focusNextPrevChild(bool next) override;

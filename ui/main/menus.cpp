@@ -1,10 +1,14 @@
 #include "ui/main/menus.h"
 
+#include <QActionGroup>
 #include <QMenuBar>
 #include <QToolBar>
+#include <algorithm>
+#include <memory>
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/main/case_head.h"
 #include "ui/main/main_window.h"
 #include "ui/main/menu_bar_icon.h"
 #include "ui/main/panel_docks.h"
@@ -73,6 +77,42 @@ void make_view_menu(MainWindow& window, Actions& actions, PanelDocks& panels) {
       ->addActions(actions.languages->actions());
 }
 
+// The open cases by their numbers, the active one checked: one that lies behind others is found by its name.
+class CaseEntries : public QObject {
+ public:
+  CaseEntries(QMenu& menu, MainWindow& window) : QObject(&menu), menu_(menu), window_(window) {
+    connect(&menu, &QMenu::aboutToShow, this, &CaseEntries::fill);
+  }
+
+ private:
+  void fill() {
+    entries_ = std::make_unique<QActionGroup>(nullptr);
+    QList<CaseWindow*> cases = window_.cases();
+    std::sort(cases.begin(), cases.end(),
+              [](const CaseWindow* a, const CaseWindow* b) { return a->number() < b->number(); });
+    if (!cases.empty()) {
+      auto* line = new QAction(entries_.get());
+      line->setSeparator(true);
+      menu_.addAction(line);
+    }
+    for (CaseWindow* one : cases) {
+      QString title = one->windowTitle().remove(QStringLiteral("[*]"));
+      title.replace(u'&', QStringLiteral("&&"));
+      const QString form = one->number() < 10 ? QStringLiteral("&%1  %2") : QStringLiteral("%1  %2");
+      auto* entry = new QAction(case_mark(one->number()), form.arg(QString::number(one->number()), title),
+                                entries_.get());
+      entry->setCheckable(true);
+      entry->setChecked(one == window_.active_case());
+      connect(entry, &QAction::triggered, one, [this, one] { window_.bring_to_front(*one); });
+      menu_.addAction(entry);
+    }
+  }
+
+  QMenu& menu_;
+  MainWindow& window_;
+  std::unique_ptr<QActionGroup> entries_;  // of the menu's last showing
+};
+
 }  // namespace
 
 void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
@@ -99,6 +139,7 @@ void make_menus(MainWindow& window, Actions& actions, const MenuParts& parts) {
   windows->addActions({actions.duplicate_case, actions.compare_schemes});
   windows->addSeparator();
   windows->addActions({actions.link, actions.lock_step});
+  new CaseEntries(*windows, window);
   QMenu* help = window.menuBar()->addMenu(MainWindow::tr("&Help"));
   help->addActions({actions.handbook, actions.first_steps, actions.about});
 }

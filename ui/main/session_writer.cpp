@@ -4,7 +4,6 @@
 #include <QMessageBox>
 
 #include "document/session_file.h"
-#include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
 #include "ui/widgets/path_text.h"
 
@@ -30,21 +29,27 @@ QString SessionWriter::ask_for_file(CaseWindow& window) {
   return files_.ask_for_file(window, tr("Save the session"), session_filter());
 }
 
-void SessionWriter::save_to(CaseWindow& window, const QString& file, std::function<void()> done) {
-  window.proxy().take_snapshot(window.view_state(),
-                               [this, file, done, saving = QPointer(&window)](const auto& snapshot) {
-                                 if (!saving) return;
-                                 const auto work = [snapshot, path = path_of(file)] {
-                                   return document::write_session(snapshot->contents, path);
-                                 };
-                                 files_.write(*saving, file, work, [this, file, saving, snapshot, done] {
-                                   if (!saving) return;
-                                   saving->session_file = file;
-                                   saving->proxy().mark_saved(*snapshot);
-                                   emit saved(*saving);
-                                   if (done) done();
-                                 });
-                               });
+void SessionWriter::save_to(CaseWindow& window, const QString& file, CaseFiles::Ended ended) {
+  const auto write = [this, file, ended, saving = QPointer(&window)](const auto& snapshot) {
+    if (!saving) {
+      if (ended) ended(false);
+      return;
+    }
+    const auto work = [snapshot, path = path_of(file)] {
+      return document::write_session(snapshot->contents, path);
+    };
+    files_.write(*saving, file, work, [this, file, saving, snapshot, ended](bool written) {
+      if (saving && written) {
+        saving->session_file = file;
+        saving->proxy().mark_saved(*snapshot);
+        emit saved(*saving);
+      }
+      if (ended) ended(written);
+    });
+  };
+  window.proxy().take_snapshot(window.view_state(), write, [ended] {
+    if (ended) ended(false);
+  });
 }
 
 void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
@@ -57,9 +62,10 @@ void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
   // It closes itself once the file is written.
   const QString file = window.session_file.isEmpty() ? ask_for_file(window) : window.session_file;
   if (file.isEmpty()) return;
-  ++closing_;
-  save_to(window, file, [this, closing = QPointer(&window)] {
-    --closing_;
+  closing_ << &window;
+  save_to(window, file, [this, key = &window, closing = QPointer(&window)](bool written) {
+    closing_.remove(key);
+    if (!written) return emit not_saved();
     if (closing) closing->close_saved();
   });
 }

@@ -2,15 +2,15 @@
 #pragma once
 
 #include <QObject>
-#include <functional>
+#include <QSet>
 
+#include "ui/main/case_files.h"
 #include "ui/main/case_window.h"
 
 class QCloseEvent;
 
 namespace tidemark::ui {
 
-class CaseFiles;
 class MainWindow;
 
 QString session_filter();  // of file dialogs
@@ -25,18 +25,20 @@ class SessionWriter : public QObject {
 
   // Asks before something is lost.
   void close(CaseWindow& window, QCloseEvent* event);
-  [[nodiscard]] bool closes_later() const { return closing_ > 0; }
+  // The case closes once it is saved.
+  [[nodiscard]] bool closes_later(const CaseWindow& window) const { return closing_.contains(&window); }
 
  signals:
   void saved(tidemark::ui::CaseWindow& window);  // its session_file holds it
+  void not_saved();                              // a case that would have closed then stays
 
  private:
   [[nodiscard]] QString ask_for_file(CaseWindow& window);
-  void save_to(CaseWindow& window, const QString& file, std::function<void()> done = {});
+  void save_to(CaseWindow& window, const QString& file, CaseFiles::Ended ended = {});
 
   MainWindow& window_;
   CaseFiles& files_;
-  int closing_ = 0;  // cases that close once they are saved
+  QSet<const CaseWindow*> closing_;  // cases that close once they are saved
 };
 
 }  // namespace tidemark::ui

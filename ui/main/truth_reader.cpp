@@ -51,16 +51,16 @@ TruthReader::TruthReader(MainWindow& window)
 }
 
 TruthReader::~TruthReader() {
-  if (job_) job_->abandon();
+  for (const auto& job : jobs_of_) job->abandon();
 }
 
 void TruthReader::read(CaseWindow& window, const QString& file) {
   if (jobs_.busy()) return window_.tell(tr("A mask is being read already."), kAboutTruth);
-  of_ = &window;
-  file_ = file;
+  read_ = {&window, file};
   progress_->begin(QFileInfo(file).fileName());
   progress_->show();
-  jobs_.read_labels(path_of(file), window.proxy().volume().geometry);
+  engine::CaseProxy& proxy = window.proxy();
+  jobs_.read_labels(path_of(file), proxy.volume().geometry, false, proxy.study().frame_of_reference_uid);
 }
 
 void TruthReader::end(const QString& problem) {
@@ -70,8 +70,10 @@ void TruthReader::end(const QString& problem) {
 
 void TruthReader::choose(const std::shared_ptr<const imaging::Segments>& segments) {
   end();
-  const QString file = QFileInfo(file_).fileName();
-  if (segments->list.size() == 1) return compare(segments, {});
+  const QString file = QFileInfo(read_.file).fileName();
+  const QString changes = engine::message_text(segments->changes);
+  if (!changes.isEmpty()) window_.tell(tr("%1: %2").arg(file, changes));
+  if (segments->list.size() == 1) return compare(read_, segments, {});
   QStringList names{tr("All of them together")};
   for (std::size_t i = 0; i < segments->list.size(); ++i)
     names << tr("%1: %2").arg(i + 1).arg(QString::fromStdString(segments->list[i].name));
@@ -90,19 +92,20 @@ void TruthReader::choose(const std::shared_ptr<const imaging::Segments>& segment
   rows->addWidget(buttons);
   connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
-  connect(dialog, &QDialog::accepted, this, [this, segments, regions] {
+  connect(dialog, &QDialog::accepted, this, [this, subject = read_, segments, regions] {
     const int index = regions->currentIndex();
-    compare(segments, index > 0 ? std::optional(static_cast<std::size_t>(index) - 1) : std::nullopt);
+    compare(subject, segments, index > 0 ? std::optional(static_cast<std::size_t>(index) - 1) : std::nullopt);
   });
   dialog->open();
 }
 
-void TruthReader::compare(const std::shared_ptr<const imaging::Segments>& segments,
+void TruthReader::compare(const Subject& subject, const std::shared_ptr<const imaging::Segments>& segments,
                           std::optional<std::size_t> region) {
-  const QString file = QFileInfo(file_).fileName();
+  if (!subject.of) return;
+  const QString file = QFileInfo(subject.file).fileName();
   const QString name =
       region ? tr("%1 of %2").arg(QString::fromStdString(segments->list[*region].name), file) : file;
-  compare(name, [segments, region] {
+  compare(*subject.of, name, [segments, region] {
     return imaging::union_of(region ? imaging::Segments{segments->geometry, {segments->list[*region]}, {}}
                                     : *segments);
   });
@@ -112,32 +115,36 @@ void TruthReader::compare_with_label(CaseWindow& window) {
   const engine::CaseProxy& proxy = window.proxy();
   const document::Label* label = proxy.chosen_label();
   if (!label) return;
-  of_ = &window;
-  compare(QString::fromStdString(label->name),
+  compare(window, QString::fromStdString(label->name),
           [grid = proxy.volume().geometry, voxels = proxy.state().label_voxels, id = label->id] {
             return mask_of(voxels ? Region(*voxels, id) : Region(), grid);
           });
 }
 
-void TruthReader::compare(const QString& name, std::function<Mask()> make) {
-  if (job_) job_->abandon();
-  job_ = engine::BackgroundJob::start(
+void TruthReader::compare(CaseWindow& of, const QString& name, std::function<Mask()> make) {
+  auto& job_of_case = jobs_of_[&of];
+  if (job_of_case) job_of_case->abandon();
+  job_of_case = engine::BackgroundJob::start(
       this,
-      [this, name, make = std::move(make)](engine::BackgroundJob& job) {
+      [this, name, alive = QPointer(&of), make = std::move(make)](engine::BackgroundJob& job) {
         auto truth = std::make_shared<const Mask>(make());
         if (truth->count() == 0) truth = nullptr;
-        job.deliver([this, truth, name] { take(truth, name); });
+        job.deliver([this, truth, name, alive] {
+          if (alive) take(*alive, truth, name);
+        });
       },
-      [this](const Error& error) { end(engine::message_text(error)); });
+      [this](const Error& error) { window_.tell(engine::message_text(error), kAboutTruth); });
 }
 
-void TruthReader::take(const std::shared_ptr<const Mask>& truth, const QString& name) {
-  if (!of_) return;
-  if (!truth) return end(tr("%1 has no voxel inside: there is nothing to compare with.").arg(name));
+void TruthReader::take(CaseWindow& of, const std::shared_ptr<const Mask>& truth, const QString& name) {
+  if (!truth) {
+    return window_.tell(tr("%1 has no voxel inside: there is nothing to compare with.").arg(name),
+                        kAboutTruth);
+  }
   window_.dismiss_about(kAboutTruth);
-  of_->proxy().compare_with(truth);
-  of_->proxy().display().change([](engine::DisplaySettings& settings) { settings.truth = true; });
-  window_.panels().show("level-set");
+  of.proxy().compare_with(truth);
+  of.proxy().display().change([](engine::DisplaySettings& settings) { settings.truth = true; });
+  if (&of == window_.active_case()) window_.panels().show("level-set");
   window_.statusBar()->showMessage(tr("Compared with %1").arg(name), kShownMs);
 }
 

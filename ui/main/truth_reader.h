@@ -1,6 +1,7 @@
 // A known answer with which a case is compared: an expert's mask from a file, or one of the case's labels.
 #pragma once
 
+#include <QHash>
 #include <QObject>
 #include <QPointer>
 #include <functional>
@@ -32,19 +33,25 @@ class TruthReader : public QObject {
   void compare_with_label(CaseWindow& window);
 
  private:
+  // The case that is compared, whichever is the active one by then, and the file that has the answer.
+  struct Subject {
+    QPointer<CaseWindow> of;
+    QString file;
+  };
+
   void choose(const std::shared_ptr<const imaging::Segments>& segments);
-  // All of it, or one region.
-  void compare(const std::shared_ptr<const imaging::Segments>& segments, std::optional<std::size_t> region);
-  void compare(const QString& name, std::function<Mask()> make);
-  void take(const std::shared_ptr<const Mask>& truth, const QString& name);
+  // With all of it, or with one region.
+  void compare(const Subject& subject, const std::shared_ptr<const imaging::Segments>& segments,
+               std::optional<std::size_t> region);
+  void compare(CaseWindow& of, const QString& name, std::function<Mask()> make);
+  void take(CaseWindow& of, const std::shared_ptr<const Mask>& truth, const QString& name);
   void end(const QString& problem = {});
 
   MainWindow& window_;
   engine::ResultJobs jobs_;
   LoadingView* progress_;
-  QPointer<CaseWindow> of_;
-  QString file_;
-  std::shared_ptr<engine::BackgroundJob> job_;  // that makes the mask
+  Subject read_;                                                        // last
+  QHash<CaseWindow*, std::shared_ptr<engine::BackgroundJob>> jobs_of_;  // that make the masks of cases
 };
 
 }  // namespace tidemark::ui

@@ -54,14 +54,14 @@ void ValueBar::follow() {
                             .arg(voxel.x)
                             .arg(voxel.y)
                             .arg(voxel.z)
-                            .arg(rounded(point->x, 1), 0, 'f', 1)
-                            .arg(rounded(point->y, 1), 0, 'f', 1)
-                            .arg(rounded(point->z, 1), 0, 'f', 1);
+                            .arg(number_text(point->x, 1))
+                            .arg(number_text(point->y, 1))
+                            .arg(number_text(point->z, 1));
   const QString unit = volume.unit.empty() ? QString() : QLatin1Char(' ') + value_unit(volume);
   const Volume& source = *proxy_->source();
-  QString values = tr("I %1%2").arg(volume.value(voxel) + 0.0, 0, 'g', 5).arg(unit);
+  QString values = tr("I %1%2").arg(general_text(volume.value(voxel), 5), unit);
   if (proxy_->state().smoothed_mm > 0.0) {
-    values += tr("   smoothed %1").arg(source.value(voxel) + 0.0, 0, 'g', 5);
+    values += tr("   smoothed %1").arg(general_text(source.value(voxel), 5));
   }
   for (const engine::ShownImage& shown : proxy_->display().settings().images) {
     if (shown.visible && shown.image->volume) values += value_of(*shown.image, *point);
@@ -72,7 +72,7 @@ void ValueBar::follow() {
 
 // The tent is known at once; other functions may take a while.
 QString ValueBar::speed_at(Index3 voxel) const {
-  const auto text = [](double speed) { return QString::number(rounded(speed, 2), 'f', 2); };
+  const auto text = [](double speed) { return number_text(speed, 2); };
   const auto& function = proxy_->state().speed;
   if (!function) return text(solver::data_speed(proxy_->parameters(), proxy_->source()->value(voxel)));
   speed_->ask({function, voxel, Index3(1)});
@@ -84,7 +84,7 @@ QString ValueBar::value_of(const document::CaseImage& image, glm::dvec3 place_mm
   const auto value = engine::value_at(image, place_mm);
   if (!value) return tr("   %1 –").arg(name);
   const QString unit = image.volume->unit.empty() ? QString() : QLatin1Char(' ') + value_unit(*image.volume);
-  return tr("   %1 %2%3").arg(name, QString::number(*value + 0.0, 'g', 4), unit);
+  return tr("   %1 %2%3").arg(name, general_text(*value, 4), unit);
 }
 
 QString ValueBar::doubt_at(Index3 voxel) {
@@ -95,8 +95,7 @@ QString ValueBar::doubt_at(Index3 voxel) {
   if (!doubt_map_) return {};
   doubt_->ask({doubt_map_, voxel, Index3(1)});
   return tr("   doubt %1")
-      .arg(doubt_->answer() ? QString::number(rounded(doubt_->answer()->front(), 2), 'f', 2)
-                            : QStringLiteral("…"));
+      .arg(doubt_->answer() ? number_text(doubt_->answer()->front(), 2) : QStringLiteral("…"));
 }
 
 QString ValueBar::details_at(Index3 voxel) {
@@ -104,10 +103,10 @@ QString ValueBar::details_at(Index3 voxel) {
   QString values = tr("   D %1").arg(speed_at(voxel)) + doubt_at(voxel);
   if (!state.phi || !state.begun) return values;
   const solver::VoxelValues at = solver::values_at(*state.phi, voxel);
-  values += tr("   φ %1").arg(rounded(at.phi, 2), 0, 'f', 2);
+  values += tr("   φ %1").arg(number_text(at.phi, 2));
   const bool clamped = std::abs(at.phi) >= state.phi->band;
   if (!clamped)
-    values += tr("   κ %1   |∇φ| %2").arg(rounded(at.curvature, 2), 0, 'f', 2).arg(at.gradient, 0, 'f', 2);
+    values += tr("   κ %1   |∇φ| %2").arg(number_text(at.curvature, 2), number_text(at.gradient, 2));
   return values;
 }
 

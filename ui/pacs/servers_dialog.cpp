@@ -11,6 +11,7 @@
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/path_line.h"
 #include "ui/widgets/path_text.h"
 
@@ -67,7 +68,7 @@ ServersDialog::ServersDialog(std::filesystem::path file, QWidget* parent)
   whole->addWidget(buttons);
 
   connect(&client_, &engine::PacsClient::answered, this, [this](double seconds) {
-    say(tr("The server answers in %1 ms.").arg(seconds * 1000.0, 0, 'f', 1));
+    say(tr("The server answers in %1 ms.").arg(number_text(seconds * 1000.0, 1)));
   });
   connect(&client_, &engine::PacsClient::failed, this, &ServersDialog::say);
   // What is saved is the user's own.

@@ -90,7 +90,9 @@ void InitialisePanel::show_method(int index) {
 
 int InitialisePanel::levels() const {
   const StartMethod& method = *methods_[static_cast<std::size_t>(method_)];
-  return method.has_levels() ? solver::levels_for(proxy()->volume().geometry) : 1;
+  const bool is_raw =
+      proxy()->parameters().data_form == solver::DataForm::raw && document::uses_tent(proxy()->drive());
+  return method.has_levels() && !is_raw ? solver::levels_for(proxy()->volume().geometry) : 1;
 }
 
 void InitialisePanel::show_sentence() {

@@ -28,7 +28,8 @@ class InitialisePanel : public Panel {
   void add_start();
   void show_method(int index);
   void show_sentence();
-  // That the chosen method can have in the case; a small study has no coarser one that is worth its while.
+  // That the chosen method can have in the case; the raw tent has no coarser ones, and those of a small study
+  // are not worth their while.
   [[nodiscard]] int levels() const;
 
   std::vector<StartMethod*> methods_;

@@ -119,16 +119,12 @@ void ModelControls::connect_client() {
 void ModelControls::attach() {
   counted_.reset();
   content_->setVisible(choice_->read() && proxy());
-  if (!proxy() || cases_.contains(proxy())) return;
-  connect(proxy(), &QObject::destroyed, this, [this](const QObject* gone) {
-    cases_.erase(gone);
+  if (!proxy() || cases_.find(proxy())) return;
+  // Whichever case is shown then.
+  connect(proxy(), &QObject::destroyed, &client_, [this] {
     if (!asked_ && client_.busy()) client_.cancel();
   });
-  cases_[proxy()] = {};
-}
-
-ModelControls::OfCase& ModelControls::of(engine::CaseProxy& proxy) {
-  return cases_[&proxy];
+  cases_[*proxy()] = {};
 }
 
 QString ModelControls::clicks_text() const {
@@ -163,7 +159,7 @@ void ModelControls::refresh() {
       model && model->clicks == imaging::AiModel::Clicks::required && (!counted_ || counted_->inside.empty());
   choice_->setEnabled(!client_.busy());
   ask_->setEnabled(model && !needs_click && !client_.busy());
-  const OfCase& kept = of(*proxy());
+  const OfCase& kept = cases_[*proxy()];
   if (client_.busy() && asked_ == proxy()) {
     if (!work_->working()) work_->begin(tr("Waiting for the server"));
   } else {
@@ -181,7 +177,7 @@ void ModelControls::refresh() {
 bool ModelControls::may_send() {
   const QPointer<engine::CaseProxy> sent(proxy());
   const QString where = choice_->where();
-  if (of(*sent).allowed.contains(where)) return true;
+  if (cases_[*sent].allowed.contains(where)) return true;
   const QString text = tr("The voxels of %1, their spacing, place and direction, and the clicks go to the "
                           "server %2:\n\n%3\n\nNo "
                           "name, no number and no DICOM header are sent. The server may keep what it gets.")
@@ -189,14 +185,14 @@ bool ModelControls::may_send() {
   const auto answer = QMessageBox::question(this, tr("Send this study?"), text,
                                             QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
   if (answer != QMessageBox::Yes || !sent || sent != proxy()) return false;
-  of(*sent).allowed.insert(where);
+  cases_[*sent].allowed.insert(where);
   return true;
 }
 
 void ModelControls::ask() {
   if (!proxy() || !choice_->model() || client_.busy() || !may_send()) return;
   asked_ = proxy();
-  of(*asked_).finding.reset();
+  cases_[*asked_].finding.reset();
   begin(tr("Calling the server"));
   const auto study = asked_->shared_study();
   client_.ask(*choice_->server(), study->volume, {*choice_->model(), choice_->label(), {}, {study->audited}},
@@ -205,26 +201,26 @@ void ModelControls::ask() {
 }
 
 void ModelControls::take(std::shared_ptr<const engine::ModelFinding> finding) {
-  if (asked_) of(*asked_).finding = std::move(finding);
+  if (asked_) cases_[*asked_].finding = std::move(finding);
   end({});
 }
 
 void ModelControls::use_as_surface() {
   if (!proxy() || client_.busy()) return;
   begin(tr("Placing the surface"));
-  client_.make_start(of(*proxy()).finding, choice_->number());
+  client_.make_start(cases_[*proxy()].finding, choice_->number());
 }
 
 void ModelControls::use_as_labels() {
   if (!proxy()) return;
-  proxy()->import_labels(of(*proxy()).finding->segments);
+  proxy()->import_labels(cases_[*proxy()].finding->segments);
 }
 
 // A file, so that a session finds the map again.
 void ModelControls::use_as_speed() {
   const QPointer<engine::CaseProxy> wanted(proxy());
   if (!wanted || client_.busy()) return;
-  const auto finding = of(*wanted).finding;
+  const auto finding = cases_[*wanted].finding;
   auto* dialog =
       new QFileDialog(this, tr("Keep the map that drives the surface"), settings::save_folder().get(),
                       tr("Volumes (%1);;All files (*)").arg(QStringLiteral("*.nii.gz *.nii *.nrrd *.mha")));
@@ -259,7 +255,7 @@ void ModelControls::drive_by(const std::shared_ptr<const document::SpeedMap>& ma
 
 void ModelControls::begin(const QString& what) {
   asked_ = proxy();
-  of(*asked_).said.clear();
+  cases_[*asked_].said.clear();
   work_->begin(what);
   choice_->setEnabled(false);
   ask_->setEnabled(false);
@@ -268,7 +264,7 @@ void ModelControls::begin(const QString& what) {
 
 void ModelControls::end(const QString& said) {
   if (asked_) {
-    of(*asked_).said = said;
+    cases_[*asked_].said = said;
   }
   work_->end(said);
   if (proxy()) refresh();

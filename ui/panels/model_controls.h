@@ -4,11 +4,11 @@
 
 #include <QPointer>
 #include <QSet>
-#include <map>
 #include <memory>
 
 #include "engine/model_client.h"
 #include "ui/panels/case_widget.h"
+#include "ui/panels/per_case.h"
 
 class QLabel;
 class QPushButton;
@@ -51,13 +51,12 @@ class ModelControls : public CaseWidget {
   void drive_by(const std::shared_ptr<const document::SpeedMap>& map);
   void begin(const QString& what);
   void end(const QString& said);
-  [[nodiscard]] OfCase& of(engine::CaseProxy& proxy);
   [[nodiscard]] QString clicks_text() const;
   [[nodiscard]] static QString finding_text(const engine::ModelFinding& finding);
 
   engine::ModelClient client_;
   QPointer<engine::CaseProxy> asked_;  // the case of what the client does
-  std::map<const QObject*, OfCase> cases_;
+  PerCase<OfCase> cases_;
   QWidget* content_;
   ModelChoice* choice_;
   QLabel* clicks_;

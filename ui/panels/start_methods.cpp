@@ -105,9 +105,12 @@ ValueStartMethod::ValueStartMethod(Extent extent, QWidget* parent) : StartMethod
   high_ = form.slider(tr("To"), tr("The largest value that is taken."));
   auto* tent = make_button(tr("Take T − ε to T + ε"), tr("The values for which the surface would grow."));
   form.wide(tent);
-  connect(tent, &QToolButton::clicked, this, &ValueStartMethod::take_tent);
-  connect(low_, &SliderNumber::edited, this, &StartMethod::changed);
-  connect(high_, &SliderNumber::edited, this, &StartMethod::changed);
+  connect(tent, &QToolButton::clicked, this, [this] {
+    take_tent();
+    keep();
+  });
+  connect(low_, &SliderNumber::edited, this, &ValueStartMethod::keep);
+  connect(high_, &SliderNumber::edited, this, &ValueStartMethod::keep);
 }
 
 QString ValueStartMethod::title() const {
@@ -127,10 +130,11 @@ void ValueStartMethod::attach() {
   }
   take_tent();
   const auto& known = proxy()->study().start;
-  if (known && known->threshold) {
-    low_->set_value(known->threshold->first);
-    high_->set_value(known->threshold->second);
-  }
+  const auto* values = chosen_.find(proxy());
+  if (!values && known && known->threshold) values = &*known->threshold;
+  if (!values) return;
+  low_->set_value(values->first);
+  high_->set_value(values->second);
 }
 
 void ValueStartMethod::take_tent() {
@@ -138,6 +142,10 @@ void ValueStartMethod::take_tent() {
   const solver::Parameters& parameters = proxy()->parameters();
   low_->set_value(parameters.target - parameters.range);
   high_->set_value(parameters.target + parameters.range);
+}
+
+void ValueStartMethod::keep() {
+  if (proxy()) chosen_[*proxy()] = {low_->value(), high_->value()};
   emit changed();
 }
 

@@ -1,6 +1,9 @@
 // The ways to begin a level set (paper section 6.1): drawn spheres, values, what is there already.
 #pragma once
 
+#include <utility>
+
+#include "ui/panels/per_case.h"
 #include "ui/panels/start_method.h"
 
 class QComboBox;
@@ -47,12 +50,14 @@ class ValueStartMethod : public StartMethod {
 
  private:
   void take_tent();
+  void keep();
   [[nodiscard]] QString range_text() const;
   [[nodiscard]] std::optional<Index3> voxel() const;  // under the crosshair
   [[nodiscard]] QString everywhere_text() const;
   [[nodiscard]] QString connected_text() const;
 
   Extent extent_;
+  PerCase<std::pair<double, double>> chosen_;  // the values, once the user has changed them
   SliderNumber* low_;
   SliderNumber* high_;
   QLabel* here_ = nullptr;  // the value under the crosshair

@@ -108,7 +108,10 @@ engine::CaseSweep* SweepPanel::sweep() const {
 
 void SweepPanel::attach() {
   Panel::attach();
-  if (shown_) shown_->disconnect(this);
+  if (shown_) {
+    shown_->disconnect(this);
+    axes_[*shown_] = {across_->axis(), down_->axis()};
+  }
   shown_ = sweep();
   say({});
   if (shown_) {
@@ -117,14 +120,19 @@ void SweepPanel::attach() {
     connect(shown_, &engine::CaseSweep::progressed, this, [this](double fraction, const QString&) {
       progress_->setValue(static_cast<int>(std::lround(fraction * kSweepBarSteps)));
     });
-    suggest_axes();
+    show_axes();
   }
   show_sweep();
 }
 
-// Those of the case's last sweep, or some that suit its parameters.
-void SweepPanel::suggest_axes() {
+// As the user has left them, those of the case's last sweep, or some that suit its parameters.
+void SweepPanel::show_axes() {
   for (SweepAxisChoice* choice : {across_, down_}) choice->set_setting(proxy()->drive().setting);
+  if (const Axes* left = axes_.find(shown_)) {
+    across_->show_axis(left->across);
+    down_->show_axis(left->down);
+    return;
+  }
   if (const auto& outcome = sweep()->outcome()) {
     const auto& axes = outcome->sweep.axes;
     across_->show_axis(axes.front());

@@ -1,7 +1,11 @@
 // The panel Sweep: many runs from the case's start side by side, to look at and to take one.
 #pragma once
 
+#include <optional>
+
+#include "document/sweep_axis.h"
 #include "ui/panels/panel.h"
+#include "ui/panels/per_case.h"
 
 class QCheckBox;
 class QComboBox;
@@ -28,10 +32,15 @@ class SweepPanel : public Panel {
   void refresh() override;
 
  private:
+  struct Axes {
+    std::optional<document::SweepAxis> across;
+    std::optional<document::SweepAxis> down;
+  };
+
   QWidget* make_axes();
   QWidget* make_run();
   QWidget* make_outcome();
-  void suggest_axes();
+  void show_axes();
   void start_or_cancel();
   void show_sweep();  // how far it is, or what it has led to
   void show_taken();
@@ -51,6 +60,7 @@ class SweepPanel : public Panel {
   QCheckBox* agreement_;
   QCheckBox* spread_;
   QPointer<engine::CaseSweep> shown_;  // to which this is connected
+  PerCase<Axes> axes_;                 // of sweeps that were shown before
 };
 
 }  // namespace tidemark::ui

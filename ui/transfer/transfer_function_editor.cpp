@@ -8,11 +8,14 @@
 
 #include "core/atomic_file.h"
 #include "engine/message_text.h"
+#include "ui/settings.h"
 #include "ui/transfer/histogram_plot.h"
 #include "ui/transfer/joint_histogram_plot.h"
 #include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/preset_picker.h"
 #include "ui/transfer/primitive_page.h"
+#include "ui/widgets/path_text.h"
+#include "ui/widgets/save_file.h"
 #include "ui/widgets/wheel_guard.h"
 
 namespace tidemark::ui {
@@ -247,17 +250,16 @@ void TransferFunctionEditor::save(const std::filesystem::path& file) {
 }
 
 void TransferFunctionEditor::ask_load() {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Load transfer function"), {},
-                                                    tr("Transfer functions (*.json);;All files (*)"));
-  if (!file.isEmpty()) load(file.toStdString());
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Load transfer function"), settings::save_folder().get(),
+                                   tr("Transfer functions (*.json);;All files (*)"));
+  if (!file.isEmpty()) load(path_of(file));
 }
 
 void TransferFunctionEditor::ask_save() {
-  QString file =
-      QFileDialog::getSaveFileName(this, tr("Save transfer function"), {}, tr("Transfer functions (*.json)"));
-  if (file.isEmpty()) return;
-  if (!file.contains('.')) file += QStringLiteral(".json");
-  save(file.toStdString());
+  const QString file =
+      ask_where_to_save(*this, tr("Save transfer function"), {}, tr("Transfer functions (*.json)"));
+  if (!file.isEmpty()) save(path_of(file));
 }
 
 }  // namespace tidemark::ui

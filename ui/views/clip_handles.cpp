@@ -129,14 +129,6 @@ void ClipHandles::paint(QPainter& painter, std::optional<Grip> hot) const {
   paint_grip(painter, tip_, hot == Grip::tilt, true);
 }
 
-bool ClipHandles::is_in_box(glm::dvec3 patient_mm, const Geometry& geometry) {
-  const glm::dvec3 voxel = geometry.to_voxel(patient_mm);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (voxel[axis] < -0.5 || voxel[axis] > static_cast<double>(geometry.size[axis]) - 0.5) return false;
-  }
-  return true;
-}
-
 std::unique_ptr<Drag> clip_drag(DragView view, const Pointer& pressed, ClipHandles::Grip grip,
                                 const VolumeScreen& screen) {
   if (grip == ClipHandles::Grip::move) return std::make_unique<MoveDrag>(std::move(view), pressed, screen);

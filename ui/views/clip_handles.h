@@ -20,8 +20,6 @@ class ClipHandles {
   [[nodiscard]] QPointF position_of(Grip grip) const { return grip == Grip::move ? centre_ : tip_; }
   // `hot`: the grip under the mouse.
   void paint(QPainter& painter, std::optional<Grip> hot) const;
-  // Whether a point of the plane is inside the volume's box.
-  [[nodiscard]] static bool is_in_box(glm::dvec3 patient_mm, const Geometry& geometry);
 
  private:
   QPolygonF outline_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "renderer/annotation.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -14,10 +15,6 @@ const QColor kRim(0, 0, 0, 170);
 const QColor kVeil(0, 0, 0, 155);  // over white, the text still has a contrast of 4.5
 constexpr double kVeilMargin = 4.0;
 constexpr double kTextMargin = 8.0;
-
-QString number(double value, int digits) {
-  return QString::number(value, 'f', digits);
-}
 
 }  // namespace
 
@@ -92,9 +89,9 @@ void paint_crosshair(QPainter& painter, QSizeF size, QPointF at) {
 
 QString text_of(const engine::Measurement& measurement) {
   if (measurement.kind == engine::Measurement::Kind::distance) {
-    return QCoreApplication::translate("View", "%1 mm").arg(number(measurement.value(), 1));
+    return QCoreApplication::translate("View", "%1 mm").arg(number_text(measurement.value(), 1));
   }
-  return QCoreApplication::translate("View", "%1°").arg(number(measurement.value(), 1));
+  return QCoreApplication::translate("View", "%1°").arg(number_text(measurement.value(), 1));
 }
 
 void paint_measurements(QPainter& painter, const std::vector<engine::Measurement>& measurements,

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "engine/case_balance.h"
 #include "engine/surface_maps.h"
@@ -129,7 +130,14 @@ Qt::CursorShape PictureView::cursor_at(QPointF /*position*/) const {
 }
 
 void PictureView::ask() {
-  if (isVisible() && width() > 0 && height() > 0) feed_.request(wanted(), physical_size(), wanted_labels());
+  if (is_seen() && width() > 0 && height() > 0) feed_.request(wanted(), physical_size(), wanted_labels());
+}
+
+void PictureView::set_covered(bool covered) {
+  if (std::exchange(covered_, covered) == covered) return;
+  if (covered) feed_.withdraw();
+  ask();
+  follow_forces();
 }
 
 void PictureView::follow_display() {
@@ -225,7 +233,7 @@ std::optional<PictureView::Ring> PictureView::ring() const {
 
 void PictureView::follow_forces() {
   const auto inputs = engine::step_inputs(proxy_.state());
-  if (!settings().forces || !isVisible() || !inputs) return forces_.forget();
+  if (!settings().forces || !is_seen() || !inputs) return forces_.forget();
   forces_.ask({*inputs, force_slab(), kForceDistance * mm_per_pixel()});
 }
 

@@ -23,6 +23,8 @@ class PictureView : public QWidget {
 
   [[nodiscard]] engine::CaseProxy& proxy() const { return proxy_; }
   [[nodiscard]] const engine::PictureFeed& feed() const { return feed_; }
+  // Another case's window lies over it.
+  void set_covered(bool covered);
   [[nodiscard]] virtual QString title() const = 0;
   [[nodiscard]] renderer::PictureSize physical_size() const;
   // The picture with its overlay, in physical pixels.
@@ -113,6 +115,7 @@ class PictureView : public QWidget {
   bool event(QEvent* event) override;
 
  private:
+  [[nodiscard]] bool is_seen() const { return isVisible() && !covered_; }
   void follow_display();
   void follow_forces();
   void explain_at(QPointF position);
@@ -127,6 +130,7 @@ class PictureView : public QWidget {
   engine::CaseProxy& proxy_;
   engine::PictureFeed feed_;
   PictureSurface* surface_ = nullptr;  // covers the whole view
+  bool covered_ = false;
   Gesture gesture_;
   QPointF mouse_;
   QPointF pressed_at_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "ui/views/mark_drags.h"
@@ -59,6 +60,12 @@ class SwipeDrag : public Drag {
   }
 };
 
+// The convention is about left and right: sagittal slices have neither.
+bool has_sides(const renderer::SliceOrientation& orientation) {
+  const glm::dvec3 across = glm::abs(orientation.right);
+  return across.x > across.y && across.x > across.z;
+}
+
 QString term_name(renderer::SpeedTerm term) {
   switch (term) {
     case renderer::SpeedTerm::total:
@@ -114,13 +121,15 @@ void SliceViewWidget::set_plane(SlicePlane plane) {
   emit display().changed();
 }
 
+renderer::SliceOrientation SliceViewWidget::radiological() const {
+  if (plane_ == SlicePlane::coronal) return renderer::kCoronal;
+  if (plane_ == SlicePlane::sagittal) return renderer::kSagittal;
+  return plane_ == SlicePlane::oblique ? settings().oblique : renderer::kAxial;
+}
+
 renderer::SliceOrientation SliceViewWidget::orientation() const {
-  renderer::SliceOrientation orientation = renderer::kAxial;
-  if (plane_ == SlicePlane::coronal) orientation = renderer::kCoronal;
-  if (plane_ == SlicePlane::sagittal) orientation = renderer::kSagittal;
-  if (plane_ == SlicePlane::oblique) orientation = settings().oblique;
-  // The convention is about left and right: sagittal slices have neither.
-  if (!settings().radiological && plane_ != SlicePlane::sagittal) orientation.right = -orientation.right;
+  renderer::SliceOrientation orientation = radiological();
+  if (!settings().radiological && has_sides(orientation)) orientation.right = -orientation.right;
   return orientation;
 }
 
@@ -197,7 +206,7 @@ std::optional<engine::SliceSlab> SliceViewWidget::slab() const {
 
 SliceViewWidget::Place SliceViewWidget::place() const {
   const Geometry& geometry = proxy().volume().geometry;
-  const glm::dvec3 into = orientation().into();
+  const glm::dvec3 into = radiological().into();
   // Slices of an oblique view are as far apart as the voxels are along its normal.
   double extent_mm = 0.0;
   double spacing_mm = 0.0;
@@ -229,7 +238,7 @@ QString SliceViewWidget::acquired_number() const {
 void SliceViewWidget::scroll(int clicks) {
   const Place now = place();
   const std::int64_t slice = std::clamp<std::int64_t>(now.slice + clicks, 1, now.slices);
-  const glm::dvec3 into = orientation().into();
+  const glm::dvec3 into = radiological().into();
   const double way_mm = static_cast<double>(slice - now.slice) * now.thickness_mm;
   display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm += into * way_mm; });
 }
@@ -360,14 +369,12 @@ void SliceViewWidget::follow_marks() {
 
 void SliceViewWidget::paint_corners(QPainter& painter) const {
   const engine::DisplaySettings& s = settings();
-  // The convention is about left and right: sagittal slices have neither, and of some studies they are
-  // unknown.
-  const bool has_sides = plane_ != SlicePlane::sagittal && proxy().study().oriented;
+  const bool sides_are_known = has_sides(radiological()) && proxy().study().oriented;
   const QString convention = s.radiological ? tr("radiological") : tr("neurological");
-  paint_study(painter, has_sides ? convention : QString());
+  paint_study(painter, sides_are_known ? convention : QString());
   const Place now = place();
   QStringList lines;
-  lines << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(now.thickness_mm, 0, 'g', 3);
+  lines << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(general_text(now.thickness_mm, 3));
   if (const QString number = acquired_number(); !number.isEmpty()) lines << number;
   if (content_ == renderer::SliceContent::source) {
     lines << tr("W %1  L %2").arg(number_text(s.window.width, 0), number_text(s.window.centre, 0));
@@ -377,7 +384,7 @@ void SliceViewWidget::paint_corners(QPainter& painter) const {
     if (const auto* row = engine::find_row(*proxy().state().history, *compared))
       lines << tr("Turquoise: step %1").arg(row->state.steering.step);
   }
-  lines << tr("Zoom %1 %").arg(100.0 * s.slice_zoom, 0, 'f', 0);
+  lines << tr("Zoom %1 %").arg(number_text(100.0 * s.slice_zoom, 0));
   paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignBottom, lines);
 }
 

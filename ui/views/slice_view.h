@@ -27,7 +27,8 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] double mm_per_pixel() const override { return screen().mm_per_pixel(); }
   [[nodiscard]] std::optional<engine::SliceSlab> slab() const override;
   [[nodiscard]] bool shows(glm::dvec3 place_mm, glm::dvec3 outward) const override;
-  // Along the normal: which slice of how many is seen (1-based), and how far they are apart.
+  // Along the normal: which slice of how many is seen (1-based), and how far they are apart. Slices are
+  // counted in one direction, whatever side of the patient is on the left.
   struct Place {
     std::int64_t slice = 1;
     std::int64_t slices = 1;
@@ -49,6 +50,8 @@ class SliceViewWidget : public PictureView {
   void zoom(double factor, QPointF about) override;
 
  private:
+  [[nodiscard]] renderer::SliceOrientation radiological() const;
+  // As it is seen: the user may want left and right the other way round, which turns the normal round.
   [[nodiscard]] renderer::SliceOrientation orientation() const;
   [[nodiscard]] renderer::SliceView slice() const;  // without further images
   // With the further images as far as they are there. While those of the present place are not, slice and

@@ -149,7 +149,7 @@ std::optional<glm::dvec3> VolumeViewWidget::patient_at(QPointF position) const {
   }
   if (!settings().clip_on) return std::nullopt;
   const auto point = screen().on_plane(position, settings().clip.normal, settings().clip.offset_mm);
-  if (!point || !ClipHandles::is_in_box(*point, proxy().volume().geometry)) return std::nullopt;
+  if (!point || !proxy().volume().geometry.covers(*point)) return std::nullopt;
   return point;
 }
 

@@ -37,6 +37,7 @@ class ActiveCaseTest : public QObject {
   void keys_of_panels_keep_the_case();
   void what_is_done_to_a_case_window_changes_the_case();
   void a_case_that_closes_hands_over_to_the_other();
+  void a_view_in_a_window_of_its_own_brings_its_case_along();
   void the_press_that_activates_a_case_changes_nothing_in_it();
 
  private:
@@ -346,6 +347,31 @@ void ActiveCaseTest::what_is_done_to_a_case_window_changes_the_case() {
   for (const int which : {0, 1, 0}) {
     click(*bar, bar->tabRect(which).center());
     QCOMPARE(active(), cases_[which]);
+  }
+}
+
+void ActiveCaseTest::a_view_in_a_window_of_its_own_brings_its_case_along() {
+  begin_with(0, false);
+  ui::PictureView* view = cases_[0]->views().last();
+  QDockWidget* dock = cases_[0]->dock_of(view);
+  dock->setFloating(true);
+  QVERIFY(QTest::qWaitForWindowExposed(dock));
+  for (int turn = 0; turn < 2; ++turn) {
+    desktop_->window().activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&desktop_->window()));
+    click_view(1);
+    QCOMPARE(active(), cases_[1]);
+    dock->activateWindow();
+    QVERIFY(Desktop::wait_for([&] { return QApplication::activeWindow() == dock; }));
+    QTest::mouseClick(view, Qt::MiddleButton, {}, view->rect().center());
+    QVERIFY(Desktop::wait_for([&] { return active() == cases_[0]; }));
+    QCOMPARE(QApplication::focusWidget(), view);
+    const std::int64_t before = cases_[0]->proxy().state().step;
+    const std::int64_t of_other = cases_[1]->proxy().state().step;
+    QTest::keyClick(view, Qt::Key_Period);
+    desktop_->wait_until_idle();
+    QCOMPARE(cases_[0]->proxy().state().step, before + 1);
+    QCOMPARE(cases_[1]->proxy().state().step, of_other);
   }
 }
 

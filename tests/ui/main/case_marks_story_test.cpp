@@ -1,5 +1,7 @@
 // Two patients open at once: panels, messages and links say of which case they are.
 #include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
 #include <QPointer>
 
 #include "imaging/files/volume_file.h"
@@ -16,6 +18,7 @@ class CaseMarksStoryTest : public QObject {
 
  private slots:
   void panels_say_whose_case_they_act_on();
+  void the_window_menu_lists_the_open_cases();
   void linked_cases_show_it_and_links_end_with_them();
   void linked_cases_of_two_modalities_keep_their_windows();
   void linked_files_of_unknown_modality_keep_their_windows();
@@ -69,6 +72,46 @@ void CaseMarksStoryTest::panels_say_whose_case_they_act_on() {
              ui::case_colour(cases[turn]->number()).rgb());
   }
   desktop.screenshot("two-patients");
+}
+
+// Behind others, or made small, a case comes back by its name.
+void CaseMarksStoryTest::the_window_menu_lists_the_open_cases() {
+  Desktop desktop(story_executor(), {1300, 800});
+  const auto cases = open_two(desktop, "sphere", "tumour");
+  QMenuBar* bar = desktop.window().menuBar();
+  QAction* title = nullptr;
+  for (QAction* one : bar->actions()) {
+    if (one->menu()->actions().contains(desktop.window().actions().tile)) title = one;
+  }
+  QVERIFY(title);
+  QMenu* menu = title->menu();
+  // The entry of a case in the open menu.
+  const auto entry_of = [&](int turn) -> QAction* {
+    QTest::mouseClick(bar, Qt::LeftButton, {}, bar->actionGeometry(title).center());
+    if (!Desktop::wait_for([&] { return menu->isVisible(); })) return nullptr;
+    const QString name = cases[turn]->proxy().name();
+    for (QAction* entry : menu->actions()) {
+      if (entry->text() == QString("&%1  %2").arg(turn + 1).arg(name)) return entry;
+    }
+    return nullptr;
+  };
+  const qsizetype without_cases = menu->actions().size();
+  cases[1]->parentWidget()->showMinimized();
+  desktop.wait_until_idle();
+  for (const int turn : {0, 1, 0}) {
+    QAction* entry = entry_of(turn);
+    QVERIFY(entry && entry->isVisible());
+    QVERIFY(!entry->isChecked());
+    QCOMPARE(menu->actions().size(), without_cases + 3);  // with a line before them
+    QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(entry).center());
+    desktop.wait_until_idle();
+    QCOMPARE(desktop.window().active_case(), cases[turn]);
+    QVERIFY(!cases[turn]->parentWidget()->isMinimized());
+    entry = entry_of(turn);
+    QVERIFY(entry && entry->isChecked());
+    desktop.screenshot("window-menu");
+    QTest::keyClick(menu, Qt::Key_Escape);
+  }
 }
 
 void CaseMarksStoryTest::linked_cases_show_it_and_links_end_with_them() {

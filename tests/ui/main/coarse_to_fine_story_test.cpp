@@ -1,12 +1,14 @@
 // A surface that is placed coarse to fine, by the panel.
 #include <QCheckBox>
 #include <QPushButton>
+#include <QToolButton>
 #include <cmath>
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "ui/main/panel_docks.h"
 #include "ui/panels/initialise_panel.h"
+#include "ui/panels/level_set_panel.h"
 #include "ui/views/next_step.h"
 #include "ui/views/volume_view.h"
 
@@ -18,12 +20,24 @@ class CoarseToFineStoryTest : public QObject {
  private slots:
   void it_rests_soon_and_undo_brings_back_what_was();
   void a_small_study_does_not_offer_it();
+  void the_raw_form_of_D_does_not_offer_it();
 
  private:
   static ui::InitialisePanel* open_panel(Desktop& desktop) {
     desktop.window().panels().show("initialise");
     desktop.wait_until_idle();
     return desktop.window().findChild<ui::InitialisePanel*>();
+  }
+  static void choose_form_of_D(Desktop& desktop, const QString& form) {
+    desktop.window().panels().show("level-set");
+    desktop.wait_until_idle();
+    auto* panel = desktop.window().findChild<ui::LevelSetPanel*>();
+    for (auto* unfold : panel->findChildren<QToolButton*>()) {
+      if (unfold->accessibleName() == "Details of the speed" && !unfold->isChecked())
+        QTest::mouseClick(unfold, Qt::LeftButton);
+    }
+    Desktop::choose_in(*panel, "Data term D", form);
+    desktop.wait_until_idle();
   }
   template <class Button>
   static Button* button(const QWidget& panel, const QString& text) {
@@ -87,6 +101,21 @@ void CoarseToFineStoryTest::a_small_study_does_not_offer_it() {
   auto* panel = open_panel(desktop);
   QVERIFY(panel);
   QVERIFY(!button<QCheckBox>(*panel, "Coarse to fine")->isVisible());
+}
+
+void CoarseToFineStoryTest::the_raw_form_of_D_does_not_offer_it() {
+  Desktop desktop(story_executor(), {1382, 858});
+  QVERIFY(desktop.open_phantom("tumour"));
+  auto* panel = open_panel(desktop);
+  QVERIFY(panel);
+  auto* coarse = button<QCheckBox>(*panel, "Coarse to fine");
+  QVERIFY(coarse && coarse->isVisible());
+  choose_form_of_D(desktop, "Raw");
+  QCOMPARE(open_panel(desktop), panel);
+  QVERIFY(panel->isVisible() && !coarse->isVisible());
+  choose_form_of_D(desktop, "Clamped");
+  QCOMPARE(open_panel(desktop), panel);
+  QVERIFY(coarse->isVisible());
 }
 
 TIDEMARK_TEST(CoarseToFineStoryTest)

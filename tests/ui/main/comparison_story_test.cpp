@@ -86,7 +86,7 @@ void ComparisonStoryTest::schemes_are_compared_by_one_click() {
   copy->close_saved();
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 1; }));
   QVERIFY(Desktop::wait_for([&] { return !desktop.window().actions().lock_step->isChecked(); }));
-  QVERIFY(!original->linked());
+  QVERIFY(Desktop::wait_for([&] { return !original->linked(); }));
   QVERIFY(original->difference().isEmpty());
 }
 

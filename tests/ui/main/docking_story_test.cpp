@@ -3,6 +3,7 @@
 #include <QDockWidget>
 #include <QFile>
 #include <QMdiSubWindow>
+#include <QSlider>
 #include <QToolButton>
 #include <map>
 
@@ -21,10 +22,12 @@ class DockingStoryTest : public QObject {
   void a_view_is_maximised_by_a_double_click_and_back();
   void a_closed_view_comes_back();
   void views_that_nobody_sees_take_no_time_from_the_surface();
+  void a_case_behind_another_is_not_drawn();
   void views_keep_their_shares_of_a_window();
   void a_session_brings_back_all_views_data();
   void a_session_brings_back_all_views();
   void a_panel_rests_behind_a_tab_and_keeps_its_size();
+  void a_panel_in_a_window_of_its_own_keeps_its_keys();
 
  private:
   static QList<QImage> pictures(ui::CaseWindow& window);
@@ -259,6 +262,57 @@ void DockingStoryTest::a_closed_view_comes_back() {
   QVERIFY(shows_a_picture(*window.active_view()));
 }
 
+void DockingStoryTest::a_case_behind_another_is_not_drawn() {
+  Desktop desktop(story_executor(), {1200, 760});
+  QList<ui::CaseWindow*> cases;
+  for (const char* kind : {"sphere", "dumbbell"}) {
+    cases << desktop.open_phantom(kind);
+    desktop.begin(8.0);
+  }
+  const auto pictures_of = [](ui::CaseWindow& window) {
+    std::uint64_t count = 0;
+    for (const ui::PictureView* view : window.views()) count += view->feed().shown().number;
+    return count;
+  };
+  const auto turn = [](ui::CaseWindow& window) {
+    window.proxy().display().change([](engine::DisplaySettings& settings) {
+      settings.camera.azimuth += 20.0;
+      settings.cursor_mm.z += 1.0;
+    });
+  };
+  desktop.window().actions().tabs->setChecked(true);
+  desktop.window().bring_to_front(*cases[1]);
+  desktop.wait_until_idle();
+  const std::uint64_t before = pictures_of(*cases[0]);
+  turn(*cases[0]);
+  desktop.wait_until_idle();
+  QCOMPARE(pictures_of(*cases[0]), before);
+  // Where one of its views has a window of its own, it is seen.
+  ui::PictureView* floating = cases[0]->views().last();
+  cases[0]->dock_of(floating)->setFloating(true);
+  desktop.wait_until_idle();
+  const std::uint64_t of_floating = floating->feed().shown().number;
+  turn(*cases[0]);
+  desktop.wait_until_idle();
+  QVERIFY(floating->feed().shown().number > of_floating);
+  cases[0]->dock_of(floating)->setFloating(false);
+  // In front, or beside the other, it is there as it is now.
+  for (const bool tabs : {true, false}) {
+    turn(*cases[0]);
+    desktop.wait_until_idle();
+    desktop.window().actions().tabs->setChecked(tabs);
+    if (tabs) desktop.window().bring_to_front(*cases[0]);
+    if (!tabs) desktop.window().actions().tile->trigger();
+    desktop.wait_until_idle();
+    for (const ui::PictureView* view : visible(*cases[0]))
+      QVERIFY2(Desktop::wait_for([&] { return shows_a_picture(*view); }), qPrintable(view->title()));
+    const std::uint64_t seen = pictures_of(*cases[0]);
+    turn(*cases[0]);
+    desktop.wait_until_idle();
+    QVERIFY(pictures_of(*cases[0]) > seen);
+  }
+}
+
 void DockingStoryTest::views_that_nobody_sees_take_no_time_from_the_surface() {
   Desktop desktop(story_executor(), {1000, 700});
   QVERIFY(desktop.open_phantom("sphere"));
@@ -334,6 +388,33 @@ void DockingStoryTest::a_panel_rests_behind_a_tab_and_keeps_its_size() {
   }
   desktop.wait_until_idle();
   QCOMPARE(level_set->size(), QSize(400, 700));
+}
+
+void DockingStoryTest::a_panel_in_a_window_of_its_own_keeps_its_keys() {
+  Desktop desktop(solver::ExecutorKind::host, {1280, 800});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  desktop.proxy().step(3);
+  desktop.window().panels().show("level-set");
+  desktop.wait_until_idle();
+  auto* dock = desktop.window().findChild<QDockWidget*>("level-set");
+  dock->setFloating(true);
+  QVERIFY(QTest::qWaitForWindowExposed(dock));
+  dock->activateWindow();
+  QVERIFY(QTest::qWaitForWindowActive(dock));
+  desktop.wait_until_idle();
+  auto* alpha = seen<QSlider>(*dock, "Data weight α");
+  QVERIFY(alpha->value() > alpha->minimum());
+  alpha->setFocus();
+  QCOMPARE(QApplication::focusWidget(), alpha);
+  QTest::keyClick(alpha, Qt::Key_Home);
+  desktop.wait_until_idle();
+  QCOMPARE(alpha->value(), alpha->minimum());
+  QCOMPARE(desktop.state().step, std::int64_t{3});  // it did not begin again
+  // The other keys are the main window's.
+  QTest::keyClick(alpha, Qt::Key_Period);
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().step, std::int64_t{4});
 }
 
 TIDEMARK_TEST(DockingStoryTest)

@@ -1,4 +1,4 @@
-// A film of the evolution in the active view, and one that is given up.
+// A film of the evolution in the active view, one that is given up, and one too many.
 #include <QImageReader>
 #include <QPushButton>
 #include <QStatusBar>
@@ -102,6 +102,33 @@ class FilmStoryTest : public QObject {
     QTest::mouseClick(line->findChild<QPushButton*>(), Qt::LeftButton);
     QVERIFY(Desktop::wait_for([&] { return !line->isVisible(); }, kPatience));
     QVERIFY(std::filesystem::is_empty(folder.path()));
+  }
+
+  void a_second_film_does_not_end_the_first() {
+    Desktop desktop(story_executor(), {900, 620});
+    QVERIFY(desktop.open_phantom("tumour"));
+    desktop.begin(9.0);
+    desktop.proxy().step(100);
+    desktop.wait_until_idle();
+    const TemporaryFolder folder;
+    QStringList written;
+    QObject::connect(desktop.window().findChild<ui::CaseFiles*>(), &ui::CaseFiles::written,
+                     [&](const QString& name) { written << name; });
+    QStringList names;
+    for (const char* name : {"first.gif", "second.gif"}) {
+      names << QString::fromStdString((folder / name).string());
+      desktop.window().films().write(*desktop.window().active_case(), names.last());
+    }
+    const auto* bar = desktop.window().findChild<ui::MessageBar*>();
+    QVERIFY(Desktop::wait_for([&] { return bar->text() == "A film is being written already."; }, kPatience));
+    QVERIFY(Desktop::wait_for([&] { return !written.isEmpty(); }, kPatience));
+    QCOMPARE(written, QStringList(names.first()));
+    QVERIFY(!pictures_of(names.first()).empty());
+    QVERIFY(!QFile::exists(names.last()));
+    QCOMPARE(bar->text(), QString());
+    // Now there is room for it.
+    desktop.window().films().write(*desktop.window().active_case(), names.last());
+    QVERIFY(Desktop::wait_for([&] { return written == names; }, kPatience));
   }
 };
 

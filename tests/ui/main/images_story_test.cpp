@@ -10,6 +10,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/file_dialog.h"
 #include "tests/ui/main/desktop.h"
+#include "ui/main/image_adder.h"
 #include "ui/main/value_bar.h"
 #include "ui/widgets/number_box.h"
 
@@ -212,6 +213,69 @@ class ImagesStoryTest : public QObject {
     desktop_->screenshot("images-3-outline");
     // The message makes the view a little lower.
     QVERIFY2(yellow(picture()) > before * 7 / 10, qPrintable(QString::number(yellow(picture()))));
+  }
+
+  // All are asked for before the first one has been read.
+  void images_go_to_the_cases_for_which_they_were_chosen() {
+    desktop_ = std::make_unique<Desktop>(story_executor());
+    ui::CaseWindow* first =
+        desktop_->open(made("a.nii.gz", ball_in_a_box({40, 40, 40}, glm::dvec3(1.0), {}, 1.0F)));
+    ui::CaseWindow* second =
+        desktop_->open(made("b.nii.gz", ball_in_a_box({40, 40, 40}, glm::dvec3(1.0), {}, 1.0F)));
+    QVERIFY(first && second);
+    const auto image = [&](const char* name) {
+      return made(name, ball_in_a_box({20, 20, 20}, glm::dvec3(2.0), {}, 1.0F));
+    };
+    const QStringList files{image("pet.nii.gz"), image("t1.nii.gz"), image("t2.nii.gz")};
+    ui::ImageAdder& adder = desktop_->window().images();
+    adder.add_file(*first, files[0]);
+    adder.add_file(*second, files[1]);
+    adder.add_file(*first, files[2]);
+    const auto names = [](ui::CaseWindow& window) {
+      QStringList names;
+      for (const engine::ShownImage& shown : window.proxy().display().settings().images)
+        names << QString::fromStdString(shown.image->name);
+      names.sort();
+      return names;
+    };
+    QVERIFY(Desktop::wait_for([&] { return names(*first).size() == 2 && names(*second).size() == 1; },
+                              kPatience));
+    QVERIFY2(names(*second).front().startsWith("t1"), qPrintable(names(*second).join(' ')));
+    QVERIFY2(names(*first)[0].startsWith("pet") && names(*first)[1].startsWith("t2"),
+             qPrintable(names(*first).join(' ')));
+  }
+
+  void an_image_is_something_to_save() {
+    desktop_ = std::make_unique<Desktop>(story_executor());
+    ui::CaseWindow* window =
+        desktop_->open(made("ct.nii.gz", ball_in_a_box({40, 40, 40}, glm::dvec3(1.0), {}, 1.0F)));
+    QVERIFY(window);
+    const auto modified = [&] { return desktop_->state().modified && window->isWindowModified(); };
+    desktop_->wait_until_idle();
+    QVERIFY(!modified());
+    add_image(made("pet.nii.gz", ball_in_a_box({20, 20, 20}, glm::dvec3(2.0), {}, 1.0F)));
+    QVERIFY(modified());
+    const auto save = [&] {
+      desktop_->press(Qt::Key_S, Qt::ControlModifier);
+      QVERIFY(Desktop::wait_for([&] { return !modified(); }, kPatience));
+    };
+    window->session_file = QString::fromStdString((folder_ / "with-pet.tidemark").string());
+    save();
+    // A registration that is accepted moves it.
+    desktop_->proxy().display().change([](engine::DisplaySettings& settings) {
+      auto moved = std::make_shared<document::CaseImage>(*settings.images[0].image);
+      moved->to_case[3].x = 2.0;
+      settings.images[0].image = moved;
+    });
+    QVERIFY(modified());
+    save();
+    desktop_->press(Qt::Key_W, Qt::ControlModifier);
+    QVERIFY(Desktop::wait_for([&] { return desktop_->window().cases().isEmpty(); }));
+    QVERIFY(desktop_->open(QString::fromStdString((folder_ / "with-pet.tidemark").string())));
+    QVERIFY(
+        Desktop::wait_for([&] { return images().size() == 1 && images().front().image->volume; }, kPatience));
+    desktop_->wait_until_idle();
+    QVERIFY(!desktop_->state().modified);
   }
 
   void an_image_elsewhere_in_the_patient_is_refused() {

@@ -112,11 +112,16 @@ void LabelsInStoryTest::what_lies_beside_a_study_is_named_and_imported_by_a_clic
   fs::create_directories(root / "one" / "results");
   fs::create_directories(root / "other" / "results");
   write_balls(root / "one" / "images");
-  const auto& source = desktop_->proxy().study().dicom_files;
-  for (const char* whose : {"one", "other"}) {
-    const fs::path file = root / whose / "results" / "labels.dcm";
-    QCOMPARE(failure(imaging::write_segmentation(block("Spleen"), source, file)), QString());
-  }
+  std::vector<fs::path> source;
+  for (const auto& entry : fs::directory_iterator(root / "one" / "images")) source.push_back(entry.path());
+  std::ranges::sort(source);
+  const auto& other_study = desktop_->proxy().study().dicom_files;
+  QCOMPARE(
+      failure(imaging::write_segmentation(block("Spleen"), source, root / "one" / "results" / "labels.dcm")),
+      QString());
+  QCOMPARE(failure(imaging::write_segmentation(block("Spleen"), other_study,
+                                               root / "other" / "results" / "labels.dcm")),
+           QString());
   const fs::path contours = root / "one" / "images" / "contours.dcm";
   QCOMPARE(failure(imaging::write_structure_set(block("Liver"), source, contours)), QString());
   std::ofstream(root / "one" / "notes.txt") << "no image";

@@ -17,6 +17,7 @@
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/teaching.h"
+#include "ui/main/value_bar.h"
 #include "ui/opening/loading_view.h"
 #include "ui/settings.h"
 
@@ -149,6 +150,9 @@ class LanguagesStoryTest : public QObject {
     QCOMPARE(now[0]->views().size(), views);
     QCOMPARE(first->display().settings().camera.azimuth, camera.azimuth);
     QVERIFY(first->state().modified);
+    first->display().set_pointer(first->volume().geometry.origin_mm);
+    const QString values = desktop.window().findChild<ui::ValueBar*>()->text();
+    QVERIFY2(values.contains(QRegularExpression("\\d,\\d; -?\\d+,\\d; -?\\d+,\\d mm")), qPrintable(values));
     // It plays on, and stops where it is told to in the new window.
     const std::int64_t step = first->state().step;
     QVERIFY(Desktop::wait_for([&] { return first->state().step > step + 3; }, kPatience));
@@ -248,7 +252,7 @@ class LanguagesStoryTest : public QObject {
     desktop.begin(8.0);
     desktop.window().active_case()->set_layout(ui::ViewLayout::two_two);
     desktop.proxy().step(100);
-    desktop.proxy().accept_surface_as("A");
+    desktop.proxy().accept_surface(0, document::Take::free_voxels, "A");
     desktop.wait_until_idle();
     desktop.window().panels().show("level-set");
     desktop.screenshot("language-" + name + "-steered");

@@ -4,8 +4,11 @@
 #include <QDockWidget>
 #include <QMap>
 #include <QMenuBar>
+#include <QMessageBox>
+#include <QPointer>
 #include <QRegularExpression>
 #include <QTextBrowser>
+#include <QTimer>
 #include <glm/geometric.hpp>
 
 #include "tests/support/test_program.h"
@@ -31,9 +34,12 @@ class MainWindowTest : public QObject {
   void a_phantom_has_one_name();
   void the_left_button_moves_the_crosshair_as_in_itk_snap_if_one_wants();
   void full_screen_gives_back_a_maximised_window();
+  void full_screen_of_the_last_time_is_left_by_its_key();
   void no_menu_has_a_letter_twice();
   void numbers_are_typed_with_either_separator_in_any_language();
   void a_session_is_among_the_recent_studies();
+  void a_quit_that_was_given_up_stays_given_up_data();
+  void a_quit_that_was_given_up_stays_given_up();
 
  private:
   static bool is_in_front(Desktop& desktop, const char* panel);
@@ -271,6 +277,24 @@ void MainWindowTest::full_screen_gives_back_a_maximised_window() {
   }
 }
 
+void MainWindowTest::full_screen_of_the_last_time_is_left_by_its_key() {
+  Desktop desktop(solver::ExecutorKind::host);
+  for (const bool begins_full : {false, true}) {
+    ui::MainWindow window(desktop.engine());
+    window.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&window));
+    const QAction& full_screen = *window.actions().full_screen;
+    QCOMPARE(window.isFullScreen(), begins_full);
+    QCOMPARE(full_screen.isChecked(), begins_full);
+    window.activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&window));
+    QTest::keyClick(&window, Qt::Key_F11);
+    QVERIFY(Desktop::wait_for([&] { return window.isFullScreen() != begins_full; }));
+    QCOMPARE(full_screen.isChecked(), !begins_full);
+    QVERIFY(window.close());
+  }
+}
+
 void MainWindowTest::no_menu_has_a_letter_twice() {
   Desktop desktop(solver::ExecutorKind::host);
   QVERIFY(desktop.open_phantom("sphere"));
@@ -331,6 +355,53 @@ void MainWindowTest::a_session_is_among_the_recent_studies() {
   QVERIFY(desktop.state().begun);
   QCOMPARE(desktop.window().active_case()->session_file, file);
   QCOMPARE(entries().size(), 1);
+}
+
+void MainWindowTest::a_quit_that_was_given_up_stays_given_up_data() {
+  QTest::addColumn<bool>("fails");
+  QTest::newRow("one is kept open") << false;
+  QTest::newRow("one cannot be saved") << true;
+}
+
+// Two cases, asked about at Quit: one is saved and closes then, one is kept. Closing that one later closes no
+// more.
+void MainWindowTest::a_quit_that_was_given_up_stays_given_up() {
+  QFETCH(const bool, fails);
+  Desktop desktop(solver::ExecutorKind::host);
+  const TemporaryFolder folder;
+  const auto file = folder / (fails ? "missing" : ".") / "saved.tidemark";
+  QList<ui::CaseWindow*> cases;
+  for (const char* kind : {"sphere", "dumbbell"}) {
+    cases << desktop.open_phantom(kind);
+    desktop.begin(8.0);
+  }
+  cases[0]->session_file = QString::fromStdString(file.string());
+  const QPointer saved(cases[0]);
+  const QString kept_name = cases[1]->proxy().name();
+  if (fails) {
+    cases[1]->close_saved();
+    QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 1; }));
+  }
+  QTimer answers;
+  connect(&answers, &QTimer::timeout, [&] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (!box) return;
+    const bool is_kept = box->text().contains(kept_name);
+    box->button(is_kept ? QMessageBox::Cancel : QMessageBox::Save)->click();
+  });
+  answers.start(20);
+  QVERIFY(!desktop.window().close());
+  answers.stop();
+  const auto is_over = [&] {
+    const auto* told = desktop.window().findChild<ui::MessageBar*>();
+    return fails ? told->text().contains("saved.tidemark") : !saved;
+  };
+  QVERIFY(Desktop::wait_for(is_over));
+  QCOMPARE(desktop.window().cases().size(), 1);
+  for (ui::CaseWindow* window : desktop.window().cases()) window->close_saved();
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
+  QTest::qWait(200);
+  QVERIFY(desktop.window().isVisible());
 }
 
 TIDEMARK_TEST(MainWindowTest)

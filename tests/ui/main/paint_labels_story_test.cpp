@@ -1,5 +1,6 @@
 // Labels painted by hand, by mouse and keys: with the brush, around, along edges, and on some values alone.
 #include <QAbstractButton>
+#include <QComboBox>
 #include <QMenu>
 #include <QTableView>
 #include <cmath>
@@ -11,6 +12,8 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/labels_desktop.h"
+#include "ui/panels/label_tool_controls.h"
+#include "ui/panels/labels_model.h"
 #include "ui/views/next_step.h"
 #include "ui/widgets/number_box.h"
 
@@ -30,6 +33,7 @@ class PaintLabelsStoryTest : public QObject {
   void a_stroke_lies_in_the_slice_that_is_seen();
   void escape_gives_a_stroke_up();
   void the_place_under_a_resting_mouse_follows_the_slice();
+  void space_ticks_a_cell_of_the_table_and_keeps_the_tool();
 
  private:
   static void undo(Desktop& desktop) {
@@ -462,6 +466,49 @@ void PaintLabelsStoryTest::the_brush_paints_a_ball_on_the_clip_plane() {
   Desktop::drag(*view, {place}, Qt::RightButton);
   desktop.wait_until_idle();
   QVERIFY(region(desktop, 1).empty());
+}
+
+void PaintLabelsStoryTest::space_ticks_a_cell_of_the_table_and_keeps_the_tool() {
+  Desktop desktop(solver::ExecutorKind::host, {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  for (const Qt::Key tool : {Qt::Key_C, Qt::Key_W}) desktop.press(tool);
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  click(desktop, panel, "Add");
+  auto* table = panel.findChild<QTableView*>();
+  QVERIFY(table && table->isVisible());
+  const auto ticks = [&](int column) {
+    const document::Label& label = desktop.state().labels.front();
+    return column == ui::LabelsModel::visible ? label.visible : label.locked;
+  };
+  const auto press_space = [&] {
+    QTest::keyClick(desktop.window().windowHandle(), Qt::Key_Space);
+    desktop.wait_until_idle();
+  };
+  for (const int column : {ui::LabelsModel::visible, ui::LabelsModel::locked}) {
+    const QRect cell = table->visualRect(table->model()->index(0, column));
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, cell.topLeft() + QPoint(2, 2));
+    desktop.wait_until_idle();
+    QVERIFY(table->hasFocus());
+    for (int press = 0; press < 2; ++press) {
+      const bool before = ticks(column);
+      press_space();
+      QCOMPARE(ticks(column), !before);
+      QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::window);
+    }
+  }
+  // A cell without a tick has no use for it.
+  table->setCurrentIndex(table->model()->index(0, ui::LabelsModel::name));
+  press_space();
+  QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::crosshair);
+  // It opens a list of choices.
+  auto* choice = panel.findChild<ui::LabelToolControls*>()->findChild<QComboBox*>();
+  QVERIFY(choice && choice->isVisible());
+  choice->setFocus();
+  press_space();
+  QVERIFY(choice->view()->isVisible());
+  QTest::keyClick(choice->view(), Qt::Key_Escape);
+  QVERIFY(Desktop::wait_for([&] { return !choice->view()->isVisible(); }));
+  QCOMPARE(desktop.proxy().display().settings().tool, engine::Tool::crosshair);
 }
 
 TIDEMARK_TEST(PaintLabelsStoryTest)

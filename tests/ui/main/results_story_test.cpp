@@ -12,6 +12,7 @@
 #include "tests/support/test_program.h"
 #include "tests/ui/file_dialog.h"
 #include "tests/ui/main/results_desktop.h"
+#include "ui/main/message_bar.h"
 #include "ui/panels/labels_model.h"
 #include "ui/panels/meaning_picker.h"
 #include "ui/results/send_result_dialog.h"
@@ -37,6 +38,7 @@ class ResultsStoryTest : public QObject, private ResultsDesktop {
   void init() { open(); }
   void cleanup() { close(); }
   void labels_go_out_as_dicom_and_come_back();
+  void labels_of_another_frame_of_reference_are_told();
   void labels_go_out_as_polygons();
   void the_surface_alone_is_a_result_too();
   void a_study_that_is_no_dicom_says_what_that_means();
@@ -163,6 +165,21 @@ void ResultsStoryTest::labels_go_out_as_dicom_and_come_back() {
         dice(mask_of(before, id, grid()), mask_of(voxels(), static_cast<std::uint8_t>(id + 2), grid()));
     QVERIFY2(same >= 0.98, qPrintable(QString::number(same)));
   }
+}
+
+void ResultsStoryTest::labels_of_another_frame_of_reference_are_told() {
+  Mask mask{grid(), std::vector<std::uint8_t>(static_cast<std::size_t>(grid().voxel_count()))};
+  mask.voxels[5000] = mask.voxels[5001] = 1;
+  const imaging::Segments segments = imaging::segments_of(mask, "Two voxels");
+  const auto& files = desktop_->proxy().study().dicom_files;
+  QCOMPARE(failure(imaging::write_segmentation(segments, files, folder_ / "same.dcm")), QString());
+  QCOMPARE(failure(imaging::write_segmentation(segments, {}, folder_ / "other.dcm")), QString());
+  const auto& messages = *desktop_->window().findChild<ui::MessageBar*>();
+  import_by_the_menu(path("same.dcm"));
+  QVERIFY2(!messages.text().contains("frame of reference"), qPrintable(messages.text()));
+  import_by_the_menu(path("other.dcm"));
+  QVERIFY2(messages.text().contains("other.dcm: it names another frame of reference than the study"),
+           qPrintable(messages.text()));
 }
 
 void ResultsStoryTest::labels_go_out_as_polygons() {

@@ -12,6 +12,7 @@
 #include "tests/ui/file_dialog.h"
 #include "tests/ui/main/results_desktop.h"
 #include "ui/main/message_bar.h"
+#include "ui/main/truth_reader.h"
 #include "ui/panels/evolution_figures.h"
 
 namespace tidemark::test::truth_story_test {
@@ -44,6 +45,7 @@ class TruthStoryTest : public QObject, ResultsDesktop {
   void a_mask_from_a_file_is_the_truth();
   void one_of_several_regions_is_chosen();
   void a_label_is_compared_with_as_it_is_now();
+  void a_mask_is_of_the_case_for_which_it_was_read();
   void what_does_not_fit_is_said_and_changes_nothing();
   void a_session_keeps_it_until_it_is_taken_back();
 
@@ -144,7 +146,7 @@ void TruthStoryTest::one_of_several_regions_is_chosen() {
 
 void TruthStoryTest::a_label_is_compared_with_as_it_is_now() {
   QVERIFY(!desktop_->menu_entry("File", "Compare with the chosen label")->isEnabled());
-  desktop_->proxy().accept_surface_as("Kidney");
+  desktop_->proxy().accept_surface(0, document::Take::free_voxels, "Kidney");
   desktop_->wait_until_idle();
   const Mask label = desktop_->state().phi->mask();
   desktop_->proxy().step(40);
@@ -162,6 +164,27 @@ void TruthStoryTest::a_label_is_compared_with_as_it_is_now() {
   desktop_->choose("File", desktop_->menu_entry("File", "Stop comparing"));
   desktop_->wait_until_idle();
   QVERIFY(!desktop_->state().dice);
+}
+
+// Another case is compared with its label before the mask has been read.
+void TruthStoryTest::a_mask_is_of_the_case_for_which_it_was_read() {
+  const Mask truth = ball(grid(), kLeft, 6.0);
+  QCOMPARE(failure(imaging::write_mask_file(truth, folder_ / "expert.nii.gz")), QString());
+  engine::CaseProxy& first = desktop_->proxy();
+  ui::CaseWindow* other = desktop_->open_phantom("sphere");
+  desktop_->begin(10.0);
+  desktop_->proxy().accept_surface(0, document::Take::free_voxels, "Ball");
+  desktop_->wait_until_idle();
+  const Mask label = desktop_->state().phi->mask();
+  auto* reader = desktop_->window().findChild<ui::TruthReader*>();
+  reader->read(*window_, path("expert.nii.gz"));
+  reader->compare_with_label(*other);
+  QVERIFY(Desktop::wait_for([&] { return first.truth() && other->proxy().truth(); }, kPatience));
+  QVERIFY(first.truth()->voxels == truth.voxels);
+  QVERIFY(other->proxy().truth()->voxels == label.voxels);
+  QCOMPARE(desktop_->window().active_case(), other);
+  desktop_->wait_until_idle();
+  QCOMPARE(dice_now(), 1.0);
 }
 
 void TruthStoryTest::what_does_not_fit_is_said_and_changes_nothing() {
@@ -202,6 +225,13 @@ void TruthStoryTest::a_session_keeps_it_until_it_is_taken_back() {
     QVERIFY(window_);
     desktop_->wait_until_idle();
   };
+  // It would be lost, too.
+  save("before.tidemark");
+  desktop_->choose("File", stop());
+  QVERIFY(Desktop::wait_for([&] { return desktop_->state().modified; }));
+  choose_file(path("expert.nii.gz"));
+  QVERIFY(Desktop::wait_for([&] { return dice_now() == expected; }, kPatience));
+  QVERIFY(desktop_->state().modified);
   save("compared.tidemark");
   // The mask's file is not asked for again.
   std::filesystem::remove(folder_ / "expert.nii.gz");

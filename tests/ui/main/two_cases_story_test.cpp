@@ -3,12 +3,15 @@
 #include <QDoubleSpinBox>
 #include <QMdiArea>
 #include <QMdiSubWindow>
+#include <QToolButton>
 #include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/story_language.h"
+#include "ui/main/panel_docks.h"
+#include "ui/panels/initialise_panel.h"
 #include "ui/panels/speed_controls.h"
 
 namespace tidemark::test::two_cases_story_test {
@@ -28,6 +31,8 @@ class TwoCasesStoryTest : public QObject {
   void one_case_that_goes_back_stops_both();
   void those_that_stay_get_the_room_of_one_that_is_closed();
   void lock_step_ends_with_its_cases();
+  void lock_step_is_ticked_for_the_cases_that_are_in_it();
+  void numbers_that_are_typed_stay_with_their_case();
 
  private:
   // Side by side.
@@ -404,6 +409,90 @@ void TwoCasesStoryTest::lock_step_ends_with_its_cases() {
   desktop.wait_until_idle();
   QVERIFY(!together.isChecked());
   QVERIFY(!desktop.proxy().in_lock_step());
+}
+
+void TwoCasesStoryTest::lock_step_is_ticked_for_the_cases_that_are_in_it() {
+  Desktop desktop(solver::ExecutorKind::host, {1200, 760});
+  const QAction& together = *desktop.window().actions().lock_step;
+  ui::CaseWindow* one = desktop.open_phantom("sphere");
+  desktop.press(Qt::Key_L, Qt::ControlModifier);
+  QVERIFY(!together.isChecked());  // with which other one?
+  ui::CaseWindow* two = desktop.open_phantom("sphere");
+  QVERIFY(!together.isChecked());
+  begin_both(desktop, {one, two}, 8.0);
+  desktop.press(Qt::Key_L, Qt::ControlModifier);
+  QVERIFY(together.isChecked());
+  desktop.press(Qt::Key_Period);
+  desktop.wait_until_idle();
+  QCOMPARE(one->proxy().state().step, std::int64_t{1});
+  QCOMPARE(two->proxy().state().step, std::int64_t{1});
+
+  // A third one is not among them until it is asked for.
+  ui::CaseWindow* three = desktop.open_phantom("sphere");
+  QVERIFY(!together.isChecked());
+  const auto look_at = [&](ui::CaseWindow* window) {
+    desktop.window().bring_to_front(*window);
+    QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() == window; }));
+  };
+  look_at(two);
+  QVERIFY(together.isChecked());
+  look_at(three);
+  QVERIFY(!together.isChecked());
+  look_at(one);
+  QVERIFY(together.isChecked());
+  // One that plays alone, as for a lesson, leaves; the last one is alone, too.
+  bool ended = false;
+  one->proxy().play_for(3, false, [&](bool /*reached*/) { ended = true; });
+  QVERIFY(Desktop::wait_for([&] { return ended; }));
+  desktop.wait_until_idle();
+  QVERIFY(!together.isChecked());
+  look_at(two);
+  QVERIFY(!together.isChecked());
+  desktop.press(Qt::Key_L, Qt::ControlModifier);
+  QVERIFY(together.isChecked());
+  for (ui::CaseWindow* window : {one, two, three}) QVERIFY(window->proxy().in_lock_step());
+}
+
+void TwoCasesStoryTest::numbers_that_are_typed_stay_with_their_case() {
+  Desktop desktop(solver::ExecutorKind::host, {1366, 768});
+  const auto cases = open_two(desktop, "sphere", "dumbbell");
+  const auto look_at = [&](int which) {
+    ui::PictureView* view = cases[which]->views().first();
+    QTest::mouseClick(view, Qt::MiddleButton, {}, view->rect().center());
+    desktop.wait_until_idle();
+    QCOMPARE(desktop.window().active_case(), cases[which]);
+  };
+  const auto value_in = [&](const QString& box) {
+    for (const auto* one : desktop.window().findChildren<QDoubleSpinBox*>()) {
+      if (one->accessibleName() == box && !one->visibleRegion().isEmpty()) return one->value();
+    }
+    return -1.0;
+  };
+  struct Panel {
+    const char* name;
+    QStringList boxes;
+    QStringList typed;
+  };
+  const QList<Panel> panels{
+      {"initialise", {"From", "To"}, {"310", "690"}},
+      {"sweep", {"Across: first value", "Across: last value"}, {"0.3", "0.6"}},
+  };
+  for (const Panel& panel : panels) {
+    desktop.window().panels().show(panel.name);
+    desktop.wait_until_idle();
+    if (panel.boxes.first() == "From") {
+      Desktop::choose_in(*desktop.window().findChild<ui::InitialisePanel*>(), "Begin with", "Threshold");
+    }
+    look_at(0);
+    for (int box = 0; box < 2; ++box) {
+      desktop.type_into(panel.boxes[box], panel.typed[box]);
+      QCOMPARE(value_in(panel.boxes[box]), panel.typed[box].toDouble());
+    }
+    look_at(1);
+    for (int box = 0; box < 2; ++box) QVERIFY(value_in(panel.boxes[box]) != panel.typed[box].toDouble());
+    look_at(0);
+    for (int box = 0; box < 2; ++box) QCOMPARE(value_in(panel.boxes[box]), panel.typed[box].toDouble());
+  }
 }
 
 TIDEMARK_TEST(TwoCasesStoryTest)

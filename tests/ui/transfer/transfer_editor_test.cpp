@@ -1,9 +1,12 @@
 // What the transfer function editor's controls do to the display, and the other way round.
 #include <QColorDialog>
 
+#include "core/atomic_file.h"
 #include "editor_fixture.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/file_dialog.h"
+#include "tests/ui/main/desktop.h"
 
 namespace tidemark::test::transfer_editor_test {
 
@@ -27,6 +30,12 @@ void type(QDoubleSpinBox* box, const QString& text) {
 void pick(QComboBox* box, int index) {
   box->setCurrentIndex(index);
   emit box->activated(index);
+}
+
+// By the button and the dialog that it opens.
+void save_as(ui::TransferFunctionEditor& editor, const std::filesystem::path& file) {
+  name_file_when_asked(QString::fromStdString(file.string()));
+  QTest::mouseClick(seen<QPushButton>(editor, "Save…"), Qt::LeftButton);
 }
 
 }  // namespace
@@ -264,6 +273,33 @@ class TransferEditorTest : public QObject {
     f.editor.load(folder / "mine.json");
     QVERIFY(f.function().source == before.source);
     QCOMPARE(f.function().name, std::string("mine"));
+  }
+
+  void a_file_has_its_ending_whatever_its_folder_is_called() {
+    EditorFixture f;
+    QVERIFY(f.is_shown());
+    const TemporaryFolder folder;
+    const std::filesystem::path folder_with_a_dot = folder / "anna.maria";
+    std::filesystem::create_directory(folder_with_a_dot);
+    save_as(f.editor, folder_with_a_dot / "bones");
+    QCOMPARE(f.editor.message(), QString());
+    QVERIFY(!std::filesystem::exists(folder_with_a_dot / "bones"));
+    QVERIFY(std::filesystem::exists(folder_with_a_dot / "bones.json"));
+    save_as(f.editor, folder_with_a_dot / "v1.2.json");
+    QVERIFY(std::filesystem::exists(folder_with_a_dot / "v1.2.json"));
+  }
+
+  void another_file_is_replaced_only_when_that_is_wanted() {
+    EditorFixture f;
+    QVERIFY(f.is_shown());
+    const TemporaryFolder folder;
+    QCOMPARE(failure(write_file(folder / "bones.json", "precious")), QString());
+    Desktop::answer(QMessageBox::No);
+    save_as(f.editor, folder / "bones");
+    QCOMPARE(bytes_of(folder / "bones.json"), QByteArray("precious"));
+    Desktop::answer(QMessageBox::Yes);
+    save_as(f.editor, folder / "bones");
+    QVERIFY(bytes_of(folder / "bones.json").contains("\"bones\""));  // the name of the function
   }
 
   void what_is_wrong_with_a_file_is_said_and_nothing_is_changed() {

@@ -1,4 +1,5 @@
-// A view along the acquired plane names each slice by the number that the PACS shows.
+// Which slice a view shows: its number in the view, whatever its sides, and the one that the PACS shows.
+#include <QWheelEvent>
 #include <glm/geometric.hpp>
 
 #include "tests/support/test_program.h"
@@ -34,8 +35,18 @@ struct View {
         view(proxy, plane, renderer::SliceContent::source) {
     show_slice(0.0);
   }
-  void show_slice(double k) {
-    const glm::dvec3 place = proxy.volume().geometry.to_patient({5.0, 5.0, k});
+  void show_sides(bool radiological) {
+    proxy.display().change([=](engine::DisplaySettings& settings) { settings.radiological = radiological; });
+  }
+  void turn_wheel() {
+    const QPointF there = view.rect().center();
+    QWheelEvent event(there, view.mapToGlobal(there), {}, {0, 120}, Qt::NoButton, {}, Qt::NoScrollPhase,
+                      false);
+    QCoreApplication::sendEvent(&view, &event);
+  }
+  void show_slice(double k) { show_place({5.0, 5.0, k}); }
+  void show_place(glm::dvec3 voxel) {
+    const glm::dvec3 place = proxy.volume().geometry.to_patient(voxel);
     proxy.display().change([&](engine::DisplaySettings& settings) { settings.cursor_mm = place; });
   }
 
@@ -117,6 +128,61 @@ class SliceNumberViewTest : public QObject {
     one.show_slice(3.0);
     QCOMPARE(one.view.acquired_number(), QString("instance 121"));
     QCOMPARE(one.view.place().slices, kSlices);
+  }
+
+  void the_choice_of_sides_leaves_the_count_of_slices_data() {
+    QTest::addColumn<ui::SlicePlane>("plane");
+    QTest::newRow("axial") << ui::SlicePlane::axial;
+    QTest::newRow("coronal") << ui::SlicePlane::coronal;
+    QTest::newRow("sagittal") << ui::SlicePlane::sagittal;
+    QTest::newRow("oblique") << ui::SlicePlane::oblique;
+  }
+
+  void the_choice_of_sides_leaves_the_count_of_slices() {
+    QFETCH(ui::SlicePlane, plane);
+    View one(numbered_ball(), plane);
+    std::vector<std::vector<std::int64_t>> counted;
+    std::vector<glm::dvec3> ends;
+    for (const bool radiological : {true, false}) {
+      one.show_sides(radiological);
+      one.show_place({20.0, 15.0, 7.0});
+      auto& numbers = counted.emplace_back();
+      numbers.push_back(one.view.place().slice);
+      one.turn_wheel();
+      numbers.push_back(one.view.place().slice);
+      QTest::keyClick(&one.view, Qt::Key_PageUp);
+      numbers.push_back(one.view.place().slice);
+      QVERIFY(numbers[1] == numbers[0] + 1 && numbers[2] == numbers[0] + 11);
+      ends.push_back(one.proxy.display().settings().cursor_mm);
+    }
+    QCOMPARE(counted[1], counted[0]);
+    QVERIFY(glm::distance(ends[0], ends[1]) < 1e-9);
+  }
+
+  // Left and right change places, front and back do not: also where slices were acquired across them.
+  void the_choice_of_sides_mirrors_left_and_right_alone_data() {
+    QTest::addColumn<bool>("is_sagittal");
+    QTest::newRow("tilted") << false;
+    QTest::newRow("sagittal") << true;
+  }
+
+  void the_choice_of_sides_mirrors_left_and_right_alone() {
+    QFETCH(bool, is_sagittal);
+    const glm::dmat3 across_sides{{0.0, 1.0, 0.0}, {0.0, 0.0, -1.0}, {-1.0, 0.0, 0.0}};
+    View one(numbered_ball(is_sagittal ? across_sides : turned(20.0)), ui::SlicePlane::oblique);
+    one.view.resize(300, 300);
+    const Geometry& geometry = one.proxy.volume().geometry;
+    one.proxy.display().change(
+        [&](engine::DisplaySettings& settings) { settings.oblique = ui::acquired_plane(geometry); });
+    const glm::dvec3 place = geometry.to_patient({40.0, 30.0, 0.0});
+    const QPointF radiological = one.view.position_of(place);
+    one.show_sides(false);
+    const QPointF neurological = one.view.position_of(place);
+    const auto from_middle = [&](QPointF position) { return position.x() - 0.5 * one.view.width(); };
+    QVERIFY(std::abs(from_middle(radiological)) > 5.0);
+    const double expected = (is_sagittal ? 1.0 : -1.0) * from_middle(radiological);
+    QVERIFY(std::abs(from_middle(neurological) - expected) < 1e-6);
+    QVERIFY(std::abs(neurological.y() - radiological.y()) < 1e-6);
   }
 };
 
