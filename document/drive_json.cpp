@@ -58,7 +58,7 @@ std::vector<std::int64_t> read_offsets(const JsonField& field, std::int64_t voxe
     return {};
   }
   std::vector<std::int64_t> offsets(count);
-  std::memcpy(offsets.data(), bytes->data(), bytes->size());
+  if (count > 0) std::memcpy(offsets.data(), bytes->data(), bytes->size());
   const bool ascends =
       std::adjacent_find(offsets.begin(), offsets.end(), std::greater_equal<>()) == offsets.end();
   if (!ascends || (count > 0 && (offsets.front() < 0 || offsets.back() >= voxels))) {
