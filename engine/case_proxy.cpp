@@ -73,7 +73,7 @@ void CaseProxy::compare_with(std::shared_ptr<const Mask> truth) {
   truth_ = std::move(truth);
   state_.dice.reset();
   use_truth();
-  follow_modified();
+  state_.modified = modified();
   post([truth = truth_](CaseRunner& runner, const Progress&) {
     runner.compare_with(truth);
     return Status();

@@ -134,11 +134,8 @@ ImageAdder::ImageAdder(MainWindow& window) : QObject(&window), window_(window) {
 }
 
 ImageAdder::OfCase& ImageAdder::of(CaseWindow& into) {
-  OfCase*& known = of_cases_[&into];
-  if (known == nullptr) {
-    known = new OfCase(window_, into);
-    connect(known, &QObject::destroyed, this, [this, key = &into] { of_cases_.remove(key); });
-  }
+  OfCase*& known = of_cases_[into];
+  if (known == nullptr) known = new OfCase(window_, into);
   return *known;
 }
 

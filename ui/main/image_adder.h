@@ -1,10 +1,10 @@
 // Further images of an open case: another series of its study, or any file.
 #pragma once
 
-#include <QHash>
 #include <QObject>
 
 #include "ui/main/case_window.h"
+#include "ui/panels/per_case.h"
 
 namespace tidemark::ui {
 
@@ -25,7 +25,7 @@ class ImageAdder : public QObject {
   OfCase& of(CaseWindow& into);
 
   MainWindow& window_;
-  QHash<CaseWindow*, OfCase*> of_cases_;  // of those that were given images; children of them
+  PerCase<OfCase*> of_cases_;  // of those that were given images; children of them
 };
 
 }  // namespace tidemark::ui
