@@ -109,18 +109,10 @@ glm::dvec3 middle_of(const solver::Field& phi) {
 }
 
 Box box_around(const solver::Field& phi) {
-  glm::dvec3 low(0.0);
-  glm::dvec3 high(phi.geometry.size - Index3(1));
-  if (phi.pages.stored() > 0) {
-    std::swap(low, high);
-    for (std::int64_t page = 0; page < phi.layout.page_count(); ++page) {
-      if (!phi.pages.is_stored(page)) continue;
-      const Index3 first = phi.layout.first_voxel(page);
-      low = glm::min(low, glm::dvec3(first));
-      high = glm::max(high, glm::dvec3(first + phi.layout.valid_shape(page) - Index3(1)));
-    }
-  }
-  return box_around(low, high, phi.geometry);
+  const VoxelRange inside = solver::inside_bounds(phi);
+  const VoxelRange shown = inside.empty() ? VoxelRange{Index3(0), phi.geometry.size}
+                                          : VoxelRange{inside.low - Index3(1), inside.high + Index3(1)};
+  return box_around(glm::dvec3(shown.low), glm::dvec3(shown.high - Index3(1)), phi.geometry);
 }
 
 Box box_around(glm::dvec3 low, glm::dvec3 high, const Geometry& geometry) {

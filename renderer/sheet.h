@@ -28,8 +28,8 @@ Result<Picture> draw_annotated(Renderer& renderer, const SliceView& view, Pictur
 Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, PictureSize size,
                                const Progress& progress = {});
 
-// The voxel in the middle of the inside (LPS, mm), and the box around the pages that hold the surface; of the
-// volume when there is no surface.
+// The voxel in the middle of the inside (LPS, mm), and the box around the inside with a voxel more on each
+// side; of the volume when there is no surface.
 glm::dvec3 middle_of(const solver::Field& phi);
 Box box_around(const solver::Field& phi);
 

@@ -4,7 +4,6 @@
 
 #include "renderer/host/host_renderer.h"
 #include "renderer/sheet.h"
-#include "solver/inside_region.h"
 
 namespace tidemark::cohort {
 namespace {
@@ -24,13 +23,6 @@ void put(Picture& whole, const Picture& part, std::int64_t index) {
     const auto from = part.pixels.begin() + 4 * y * part.width;
     std::copy(from, from + 4 * part.width, whole.pixels.begin() + 4 * (y * whole.width + index * part.width));
   }
-}
-
-// Around the voxels inside with one more on each side; of the volume where there are none.
-renderer::Box box_around(const solver::Field& phi) {
-  const VoxelRange inside = solver::inside_region(phi).bounds();
-  if (inside.empty()) return renderer::box_around(phi);
-  return renderer::box_around(glm::dvec3(inside.low - Index3(1)), glm::dvec3(inside.high), phi.geometry);
 }
 
 }  // namespace
@@ -55,7 +47,7 @@ Result<Picture> case_picture(const Volume& source, const solver::Field& phi, std
   renderer::VolumeView view;
   view.camera.azimuth = 30.0;
   view.camera.elevation = 20.0;
-  view.camera = view.camera.on(box_around(phi), source.geometry, 1.0);
+  view.camera = view.camera.on(renderer::box_around(phi), source.geometry, 1.0);
   view.background = glm::vec3(0.0F);
   const auto picture = (*renderer)->draw(view, {side, side});
   if (!picture) return picture;

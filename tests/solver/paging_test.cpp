@@ -1,10 +1,13 @@
 // Virtual memory: address translation, tables and fields for any page shape in 2, 3 and 4 dimensions, and
 // what is checked of a level set.
+#include <algorithm>
+#include <glm/geometric.hpp>
 #include <map>
 #include <random>
 #include <set>
 
 #include "level_sets.h"
+#include "solver/inside_region.h"
 #include "solver/paging/paged_memory.h"
 #include "solver/paging/validate.h"
 #include "tests/support/support.h"
@@ -254,6 +257,32 @@ class PagingTest : public QObject {
           QVERIFY(made.pages.stored_pages() == wanted.pages.stored_pages());
           QVERIFY(made.dense() == wanted.dense());
         }
+      }
+    }
+  }
+
+  // The box of the inside does not depend on pages: a ball with whole pages in it, and voxels far from it.
+  void the_inside_has_the_same_bounds_in_pages_of_any_shape() {
+    const Geometry geometry = grid({67, 58, 49});
+    const auto with = [&](const std::vector<glm::dvec3>& alone, double radius) {
+      return sample(geometry, [&](glm::dvec3 p) {
+        const bool is_alone = std::find(alone.begin(), alone.end(), p) != alone.end();
+        return is_alone ? 0.5 : std::clamp(radius - glm::distance(p, {30.0, 27.0, 25.0}), -2.5, 2.5);
+      });
+    };
+    const std::pair<std::vector<float>, VoxelRange> cases[] = {
+        {with({}, 20.5), {{10, 7, 5}, {51, 48, 46}}},
+        {with({{66, 20, 25}, {30, 0, 25}}, 20.5), {{10, 0, 5}, {67, 48, 46}}},
+        {with({{3, 4, 48}}, 0.0), {{3, 4, 48}, {4, 5, 49}}},
+        {with({}, 0.0), {}},
+        {with({}, 100.0), {{0, 0, 0}, {67, 58, 49}}}};
+    for (const Index3 shape : kShapes) {
+      for (const auto& [values, wanted] : cases) {
+        const solver::Field phi = solver::Field::from_dense(geometry, values, 2.5, shape);
+        QVERIFY(solver::inside_bounds(phi) == wanted);
+        QVERIFY(solver::inside_region(phi).bounds() == wanted);
+        QCOMPARE(solver::inside_region(phi).count(),
+                 std::count_if(values.begin(), values.end(), [](float value) { return value > 0.0F; }));
       }
     }
   }

@@ -47,7 +47,7 @@ void OwnStudyStoryTest::a_folder_leads_to_an_stl_file() {
   desktop.wait_until_idle();
   QVERIFY(desktop.state().begun);
   desktop.press(Qt::Key_P);
-  QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 30 && !desktop.state().playing; }, 300000));
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().step > 30 && !desktop.state().playing; }, 840000));
   desktop.wait_until_idle();
   desktop.screenshot("own-3-played");
   QVERIFY(desktop.state().converged);
