@@ -32,6 +32,7 @@ CameraFollower::CameraFollower(engine::CaseProxy& proxy, std::function<double()>
   glide_.setStartValue(0.0);
   glide_.setEndValue(1.0);
   connect(&proxy, &engine::CaseProxy::state_changed, this, &CameraFollower::follow);
+  connect(&glide_, &QVariantAnimation::finished, this, &CameraFollower::catch_up);
 }
 
 void CameraFollower::fit() {
@@ -53,14 +54,25 @@ void CameraFollower::follow() {
   if (state.phi == seen_ && !ends) return;
   seen_ = state.phi;
   if (!is_own() || seen_->pages.stored() == 0) return;
-  if (ends) return glide_to(on_surface(camera(), 1.0));
-  const bool first = !own_;
   const bool moves = glide_.state() == QAbstractAnimation::Running;
-  const bool sees = camera().sees(renderer::box_around(*seen_), proxy_.volume().geometry, aspect);
-  if (!first && (moves || sees)) return;
-  renderer::Camera next = on_surface(camera(), kSurfaceRoom);
-  next.zoom = std::min(next.zoom, kNearest);
-  first ? set(next) : glide_to(next);
+  if (ends || !own_ || (!moves && !sees())) approach();
+}
+
+// Where the surface may have gone meanwhile: with a GPU it can come after the state that says that it rests.
+void CameraFollower::catch_up() {
+  if (seen_ == approached_ || !is_own() || seen_->pages.stored() == 0) return;
+  if (converged_ || !sees()) approach();
+}
+
+bool CameraFollower::sees() const {
+  return camera().sees(renderer::box_around(*seen_), proxy_.volume().geometry, aspect_());
+}
+
+void CameraFollower::approach() {
+  renderer::Camera next = on_surface(camera(), converged_ ? 1.0 : kSurfaceRoom);
+  if (!converged_) next.zoom = std::min(next.zoom, kNearest);
+  approached_ = seen_;
+  own_ ? glide_to(next) : set(next);
 }
 
 // `room`: times the surface's own extent.
@@ -83,13 +95,13 @@ void CameraFollower::set(const renderer::Camera& camera) {
 
 void CameraFollower::glide_to(const renderer::Camera& to) {
   glide_.stop();
-  glide_.disconnect(this);
+  disconnect(step_);
   const glm::dvec3 middle = renderer::middle_of(proxy_.volume().geometry);
-  connect(&glide_, &QVariantAnimation::valueChanged, this,
-          [this, from = camera(), to, middle](const QVariant& share) {
-            if (!is_own()) return glide_.stop();
-            set(between(from, to, share.toDouble(), middle));
-          });
+  step_ = connect(&glide_, &QVariantAnimation::valueChanged, this,
+                  [this, from = camera(), to, middle](const QVariant& share) {
+                    if (!is_own()) return glide_.stop();
+                    set(between(from, to, share.toDouble(), middle));
+                  });
   glide_.start();
 }
 

@@ -32,15 +32,20 @@ class CameraFollower : public QObject {
   [[nodiscard]] const renderer::Camera& camera() const { return proxy_.display().settings().camera; }
   [[nodiscard]] bool is_own() const;
   [[nodiscard]] renderer::Camera on_surface(const renderer::Camera& from, double room) const;
+  void catch_up();
+  [[nodiscard]] bool sees() const;  // seen_
+  void approach();
   void set(const renderer::Camera& camera);
   void glide_to(const renderer::Camera& camera);
 
   engine::CaseProxy& proxy_;
   std::function<double()> aspect_;
   std::shared_ptr<const solver::Field> seen_;
+  std::shared_ptr<const solver::Field> approached_;  // where the camera has gone, or is going
   bool converged_ = false;
   std::optional<renderer::Camera> own_;  // as it was left here
   QVariantAnimation glide_;
+  QMetaObject::Connection step_;  // of the glide
 };
 
 }  // namespace tidemark::ui
