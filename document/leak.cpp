@@ -14,6 +14,11 @@ std::size_t index(FrontPatches::Number patch) {
   return static_cast<std::size_t>(patch);
 }
 
+double smallest_face_mm2(const Geometry& geometry) {
+  const glm::dvec3 s = geometry.spacing_mm;
+  return std::min({s.x * s.y, s.y * s.z, s.z * s.x});
+}
+
 // The largest section of a ball of that volume.
 double section_of_ball_mm2(double volume_mm3) {
   return M_PI * std::pow(0.75 / M_PI * volume_mm3, 2.0 / 3.0);
@@ -23,6 +28,7 @@ double section_of_ball_mm2(double volume_mm3) {
 
 std::optional<Leak> LeakFinder::find(const FrontPatches& patches, const LeakRule& rule) {
   found_.reset();
+  least_front_mm2_ = 0.5 * smallest_face_mm2(patches.geometry());
   const auto& all = patches.patches();
   const Look earliest = all.size() > kMostPatches ? all[all.size() - kMostPatches].look + 1 : 1;
   go_back(patches, earliest, &rule);
@@ -82,7 +88,9 @@ void LeakFinder::join_newer(const FrontPatches& patches, Number patch) {
 
 void LeakFinder::judge(Number patch, Look look, const LeakRule& rule) {
   Branch& it = branch(patch);
-  const bool narrow = it.front_mm2 * rule.narrowing <= it.widest_mm2 && it.voxels >= rule.least_voxels;
+  // A branch without a face to older voxels has come across an edge or from nowhere: nothing would close it.
+  const bool narrow = it.front_mm2 >= least_front_mm2_ && it.front_mm2 * rule.narrowing <= it.widest_mm2 &&
+                      it.voxels >= rule.least_voxels;
   if (it.neck.patch != 0 && it.front_mm2 >= rule.narrowing * it.neck.front_mm2) {
     consider(it.neck, it.front_mm2, rule);
     it.neck = {};

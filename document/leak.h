@@ -73,6 +73,7 @@ class LeakFinder {
   Number first_ = 1;              // patch of those that are looked at
   std::vector<Number> parents_;   // of these
   std::vector<Branch> branches_;  // of roots
+  double least_front_mm2_ = 0.0;  // what is smaller is no front, but what is left of sums
   std::optional<Neck> found_;
 };
 

@@ -17,6 +17,16 @@ bool replaces(const RecipeEvent& event, const RecipeEvent& before) {
   return now != nullptr && then != nullptr && cover(*now->drive, *then->drive);
 }
 
+// Whether phi at the end of that recipe is the same where this drive alone has held it from the start on.
+bool covers_all(const Drive& drive, const Recipe& recipe) {
+  const auto covers = [&](const RecipeEvent& event) {
+    const auto* then = std::get_if<DriveEvent>(&event.what);
+    return then == nullptr || cover(drive, *then->drive);
+  };
+  return cover(drive, value_of(recipe.drive)) &&
+         std::all_of(recipe.events.begin(), recipe.events.end(), covers);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<LevelSet>> LevelSet::create(std::shared_ptr<const Volume> volume,
@@ -201,20 +211,18 @@ void LevelSet::note(const CurvePoint& point) {
   if (!dirty_) known_.curve = curve_;
 }
 
-// Brings the executor back to the recipe's start, with the edits that were made before the first step.
+// Brings the executor to the start of a recipe that has no steps, with its edits.
+Status LevelSet::play_start(const Recipe& recipe) {
+  TIDEMARK_TRY(setup_.set_conditions(recipe.smoothed_mm, recipe.parameters, recipe.drive));
+  TIDEMARK_TRY(setup_.begin(recipe.start, {}));
+  return setup_.play(recipe, 0, 0, 0, {});
+}
+
+// Brings the executor back to the recipe's start, with the edits that were made before the first step. They
+// are in start_ already: a wall among them that was taken away again does not cut it once more.
 Status LevelSet::prepare_start() {
-  TIDEMARK_TRY(setup_.set_conditions(recipe_.smoothed_mm, recipe_.parameters, recipe_.drive));
-  if (start_ == nullptr) {
-    TIDEMARK_TRY(setup_.begin(recipe_.start, {}));
-    return setup_.play(recipe_.up_to(0), 0, 0, 0, {});
-  }
-  TIDEMARK_TRY(executor().restore(*start_));
-  for (const RecipeEvent& event : recipe_.events) {
-    if (event.step > 0) break;
-    if (std::holds_alternative<PaintEvent>(event.what)) continue;  // in start_ already
-    TIDEMARK_TRY(setup_.apply(event));
-  }
-  return {};
+  if (start_ == nullptr) return play_start(recipe_.up_to(0));
+  return hand_over({recipe_.up_to(0), start_, start_});
 }
 
 Status LevelSet::compute_again(std::int64_t target, const Progress& progress) {
@@ -260,19 +268,42 @@ Status LevelSet::keep(Status computed, Recipe recipe, ChangeKind kind, Point bef
   return {};
 }
 
-// The start as it was before the first step, with the present parameters. No change may be open.
-Result<LevelSet::Point> LevelSet::start_point() {
-  if (start_ == nullptr) {
+// phi at the start of a recipe that has no steps. The executor is left there, whatever comes of it.
+Result<std::shared_ptr<const solver::Field>> LevelSet::played_start(const Recipe& recipe) {
+  TIDEMARK_TRY(play_start(recipe));
+  auto phi = executor().snapshot();
+  if (!phi) return pass_on(phi);
+  return std::make_shared<const solver::Field>(std::move(*phi));
+}
+
+// The same, and back to the present point. Ends what goes on.
+Result<std::shared_ptr<const solver::Field>> LevelSet::start_made_anew(const Recipe& recipe) {
+  TIDEMARK_TRY(history_.close());
+  auto phi = played_start(recipe);
+  TIDEMARK_TRY(go_to(known_));
+  return phi;
+}
+
+// The start as it was before the first step, for another run with those conditions. Where walls or anchors
+// are gone that have moved it, its new recipe leads elsewhere than to start_: it is made from that one.
+Result<LevelSet::Point> LevelSet::start_point(const solver::Parameters& parameters,
+                                              const std::shared_ptr<const Drive>& drive) {
+  Recipe recipe = recipe_.up_to(0);
+  const bool is_held = covers_all(value_of(drive), recipe);
+  settle_start(recipe);
+  recipe.set_conditions(parameters, drive);
+  if (is_held && start_ == nullptr) {
     // It was saved later than its start: what lies between is made again.
-    Status prepared = prepare_start();
-    auto phi = prepared ? executor().snapshot() : Result<solver::Field>(pass_on(prepared));
-    TIDEMARK_TRY(go_to(known_));
+    auto phi = start_made_anew(recipe_.up_to(0));
     if (!phi) return pass_on(phi);
-    start_ = known_.start = std::make_shared<const solver::Field>(std::move(*phi));
+    start_ = known_.start = std::move(*phi);
   }
-  Point point{recipe_.up_to(0), start_, start_, {}, drive_};
-  settle_start(point.recipe);
-  point.recipe.set_conditions(parameters(), setup_.drive());
+  Point point{std::move(recipe), start_, start_, {}, drive_};
+  if (!is_held) {
+    auto phi = start_made_anew(point.recipe);
+    if (!phi) return pass_on(phi);
+    point.phi = point.start = std::move(*phi);
+  }
   return point;
 }
 
@@ -288,8 +319,14 @@ Status LevelSet::restart() {
   TIDEMARK_TRY(history_.close());
   if (step() == 0) return {};
   Point before = known_;
-  auto point = start_point();
+  auto point = start_point(parameters(), setup_.drive());
   if (!point) return pass_on(point);
+  if (const auto& held = executor().constraints(); held != nullptr) {
+    // Walls that came after the first step hold phi, too; start() is left as it was.
+    solver::Field phi = *point->phi;
+    solver::constrain(phi, *held);
+    point->phi = std::make_shared<const solver::Field>(std::move(phi));
+  }
   TIDEMARK_TRY(go_to(std::move(*point)));
   enter(ChangeKind::restart, std::move(before));
   return {};
@@ -312,6 +349,9 @@ Status LevelSet::rebuild(const solver::ExecutorOptions& options, std::optional<s
   const solver::Parameters present = parameters();
   const auto wanted = drive_;
   TIDEMARK_TRY(go_to(known_));
+  if (!open_ && wanted->constraints != drive_->constraints) {
+    TIDEMARK_TRY(set_drive(*wanted));  // the entry that had them could not be made
+  }
   drive_ = known_.drive = wanted;
   if (Drive now = drive_in_use(); now.constraints != wanted->constraints) {
     now.constraints = wanted->constraints;
@@ -320,7 +360,7 @@ Status LevelSet::rebuild(const solver::ExecutorOptions& options, std::optional<s
   if (present == parameters()) return {};
   if (!open_) return set_parameters(present);
   // What goes on has set them.
-  TIDEMARK_TRY(executor().set_parameters(present));
+  TIDEMARK_TRY(setup_.set_parameters(present));
   if (begun()) {
     record({step(), ParametersEvent{present}});
   } else {

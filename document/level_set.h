@@ -70,10 +70,11 @@ class LevelSet final : private OpenChange {
   // Back to where the level set was `steps` steps ago, by computing again from where phi was last put in
   // place: the same voxels. At most to the start. An entry of its own.
   Status step_back(std::int64_t steps, const Progress& progress = {});
-  // Back to the start as it was before the first step, with the present parameters. An entry of its own.
+  // Back to the start as it was before the first step, with the present parameters, walls and anchors. Those
+  // that are gone by then have not moved it. An entry of its own.
   Status restart();
 
-  // For runs from the start as it was before the first step, with the present parameters, drive and source.
+  // For runs from where restart() leads, with the present parameters, drive and source.
   // Fails (ErrorKind::usage) when there is no surface.
   Result<SweepStart> sweep_start();
   // Becomes that run of a sweep, computed again by the case's own executor. An entry of its own. Fails
@@ -181,11 +182,13 @@ class LevelSet final : private OpenChange {
   Status arrive();
   Status hand_over(const Point& point);
   Status go_to(Point point);
+  Status play_start(const Recipe& recipe);
   Status prepare_start();
-  Result<Point> start_point();
+  Result<std::shared_ptr<const solver::Field>> played_start(const Recipe& recipe);
+  Result<std::shared_ptr<const solver::Field>> start_made_anew(const Recipe& recipe);
+  Result<Point> start_point(const solver::Parameters& parameters, const std::shared_ptr<const Drive>& drive);
   void settle_start(Recipe& start) const;
   Status begin_again_with(const solver::Parameters& parameters);
-  Result<solver::Field> start_with(const solver::Parameters& parameters);
   void take_drive_of_recipe();
   Status compute_again(std::int64_t target, const Progress& progress);
   Status keep(Status computed, Recipe recipe, ChangeKind kind, Point before);

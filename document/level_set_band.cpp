@@ -5,23 +5,6 @@
 
 namespace tidemark::document {
 
-// phi before the first step, made anew from the recipe with those parameters.
-Result<solver::Field> LevelSet::start_with(const solver::Parameters& parameters) {
-  if (recipe_.smoothed_mm != smoothed_mm()) {
-    TIDEMARK_TRY(setup_.smooth_source(recipe_.smoothed_mm));
-  }
-  TIDEMARK_TRY(setup_.prepare(parameters));
-  if (!begun()) return executor().snapshot();
-  auto phi = setup_.begin(recipe_.start, {});
-  if (!phi) return phi;
-  for (const RecipeEvent& event : recipe_.events) {
-    if (event.step > 0) break;
-    if (!std::holds_alternative<PaintEvent>(event.what)) continue;
-    TIDEMARK_TRY(setup_.apply(event));
-  }
-  return executor().snapshot();
-}
-
 Status LevelSet::begin_again_with(const solver::Parameters& parameters) {
   TIDEMARK_TRY(history_.close());
   Point before = known_;
@@ -29,12 +12,12 @@ Status LevelSet::begin_again_with(const solver::Parameters& parameters) {
   settle_start(point.recipe);
   point.recipe.parameters = parameters;
   point.recipe.drive = setup_.drive();
-  auto phi = start_with(parameters);
+  auto phi = played_start(point.recipe);
   if (!phi) {
     TIDEMARK_TRY(go_to(before));
     return pass_on(phi);
   }
-  point.phi = point.start = std::make_shared<const solver::Field>(std::move(*phi));
+  point.phi = point.start = std::move(*phi);
   TIDEMARK_TRY(go_to(std::move(point)));
   enter(ChangeKind::parameters, std::move(before));
   return {};

@@ -35,10 +35,6 @@ Status LevelSet::set_drive(const Drive& drive, std::uint64_t gesture) {
   TIDEMARK_TRY(use(now, drive.setting.is_tent() ? nullptr : executor().speed(), Entry::next));
   begin_change(kind, gesture, before);
   drive_ = std::make_shared<const Drive>(drive);
-  if (kind == ChangeKind::constraints) {
-    curve_.cut(step());
-    dirty_ = true;
-  }
   return gesture == 0 ? history_.close() : Status();
 }
 
@@ -53,10 +49,15 @@ Drive LevelSet::drive_in_use() const {
 // Puts it in place of what drives and holds the surface, and into the recipe.
 Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed, Entry entry) {
   const Drive used = relevant(drive);
+  const Drive present = drive_in_use();
   // The one in place was made from the same: giving it again would wake pages, which a replay does not.
   const bool in_place = used.setting.is_tent() || executor().speed() != nullptr;
-  if (in_place && used == drive_in_use()) return {};
+  if (in_place && used == present) return {};
   TIDEMARK_TRY(setup_.set_drive(shared(used), std::move(speed)));
+  if (used.constraints != present.constraints) {
+    curve_.cut(step());
+    dirty_ = true;
+  }
   if (used == value_of(recipe_.final_drive())) return {};
   if (!begun()) {
     recipe_.drive = shared(used);

@@ -74,6 +74,16 @@ inline std::unique_ptr<document::Case> begun_case(solver::ExecutorKind kind = so
   return made;
 }
 
+// The case's drive, with a ball as its only wall, that far from the volume's middle.
+inline document::Drive with_wall(const document::Case& document, glm::dvec3 off_mm, double radius_mm) {
+  const Volume& volume = *document.volume();
+  auto walls = std::make_shared<solver::Constraints>(volume.geometry.size);
+  walls->set(volume.geometry, ball_at(volume, off_mm, radius_mm), solver::Constraint::wall);
+  document::Drive drive = document.level_set().drive();
+  drive.constraints = std::move(walls);
+  return drive;
+}
+
 inline std::vector<float> values_of(const document::LevelSet& level_set) {
   return level_set.executor().snapshot().value().dense();
 }

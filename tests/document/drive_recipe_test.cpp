@@ -203,6 +203,53 @@ class DriveRecipeTest : public QObject {
     QVERIFY(replayed(again(level_set.recipe()), document->volume()) == values_of(level_set));
   }
 
+  // A wall that stays, and one beside it, need no other start.
+  void a_restart_replays_where_walls_of_the_start_are_gone_data() {
+    QTest::addColumn<bool>("before_the_start");
+    QTest::addColumn<bool>("by_speed");
+    QTest::newRow("walls before the start") << true << false;
+    QTest::newRow("walls after the start") << false << false;
+    QTest::newRow("walls before a start by the speed") << true << true;
+    QTest::newRow("walls after a start by the speed") << false << true;
+  }
+  void a_restart_replays_where_walls_of_the_start_are_gone() {
+    QFETCH(const bool, before_the_start);
+    QFETCH(const bool, by_speed);
+    const auto volume = lumpy_volume();
+    document::Start start = seed_in(*volume);
+    if (by_speed) {
+      start = {};
+      start.from = document::SpeedStart{};
+    }
+    const auto document = make_case(volume);
+    document::LevelSet& level_set = document->level_set();
+    const auto walled = with_ball({}, *volume, {4, 0, 0}, solver::Constraint::wall);
+    if (before_the_start) drive(level_set, walled);
+    QCOMPARE(failure(level_set.begin(start)), QString());
+    if (!before_the_start) drive(level_set, walled);
+    // Painted against a wall that is gone later on.
+    QCOMPARE(failure(level_set.paint(ball_at(*volume, {6, 0, 0}, 4.0), solver::Brush::add)), QString());
+    const std::vector<float> cut = values_of(level_set);
+    run(level_set, 20);
+    const auto wider = with_ball(walled, *volume, {-7, 0, 0}, solver::Constraint::wall);
+    drive(level_set, wider);
+    const auto as_it_was = level_set.start();
+    QCOMPARE(failure(level_set.restart()), QString());
+    QVERIFY(level_set.start() == as_it_was);
+    run(level_set, 10);
+    QVERIFY(replayed(again(level_set.recipe()), volume) == values_of(level_set));
+    drive(level_set, {});
+    const Seen before(level_set);
+    QCOMPARE(failure(level_set.restart()), QString());
+    // A start by the speed keeps the walls that it was computed with.
+    QCOMPARE(values_of(level_set) == cut, by_speed && before_the_start);
+    run(level_set, 30);
+    QVERIFY(replayed(again(level_set.recipe()), volume) == values_of(level_set));
+    QCOMPARE(failure(document->undo()), QString());
+    QCOMPARE(failure(document->undo()), QString());
+    QVERIFY(Seen(level_set) == before);
+  }
+
   void undo_and_redo_bring_the_function_back() {
     const auto document = begun_case();
     document::LevelSet& level_set = document->level_set();

@@ -1,6 +1,7 @@
 // What drives a level set, and what holds it, can be changed, taken back and made again.
 #include "document/drive.h"
 
+#include "core/index_walk.h"
 #include "solver/speed/speed_registry.h"
 #include "tests/document/cases.h"
 #include "tests/support/test_program.h"
@@ -9,15 +10,6 @@ namespace tidemark::test::drive_test {
 
 class DriveTest : public QObject {
   Q_OBJECT
-
-  static document::Drive with_wall(const document::Case& document, glm::dvec3 off_mm, double radius_mm) {
-    const Volume& volume = *document.volume();
-    auto walls = std::make_shared<solver::Constraints>(volume.geometry.size);
-    walls->set(volume.geometry, ball_at(volume, off_mm, radius_mm), solver::Constraint::wall);
-    document::Drive drive = document.level_set().drive();
-    drive.constraints = std::move(walls);
-    return drive;
-  }
 
   // The phi of a voxel in the middle of that wall.
   static float phi_at(const document::Case& document, glm::dvec3 off_mm) {
@@ -129,6 +121,29 @@ class DriveTest : public QObject {
     QCOMPARE(failure(level_set.restart()), QString());
     QCOMPARE(level_set.step(), std::int64_t{0});
     QCOMPARE(level_set.executor().constraints(), drive.constraints);
+  }
+
+  // What is shown, measured and saved is phi as the executor has it.
+  void a_restart_is_known_as_later_walls_leave_it_data() { add_executors(); }
+  void a_restart_is_known_as_later_walls_leave_it() {
+    auto document = begun_case(this_executor());
+    document::LevelSet& level_set = document->level_set();
+    run(level_set, 20);
+    const document::Drive drive = with_wall(*document, {1.3, -0.7, 0.4}, 3.0);
+    QCOMPARE(failure(level_set.set_drive(drive)), QString());
+    run(level_set, 5);
+    QCOMPARE(failure(level_set.restart()), QString());
+    const std::vector<float> held = values_of(level_set);
+    const auto known = level_set.checkpoint();
+    QCOMPARE(failure(known), QString());
+    QVERIFY((*known)->dense() == held);
+    QVERIFY(level_set.phi_at(document->history().last_state()).dense() == held);
+    for_each_index(Index3(0), document->volume()->geometry.size, [&](Index3 voxel) {
+      if (drive.constraints->at(voxel) == solver::Constraint::wall) QVERIFY((*known)->at(voxel) < 0.0F);
+    });
+    run(level_set, 5);
+    QCOMPARE(failure(document->undo()), QString());
+    QVERIFY(values_of(level_set) == held);
   }
 };
 

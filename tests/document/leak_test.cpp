@@ -1,6 +1,7 @@
 // Leaks that are found, in time, and bodies where there are none.
 #include "document/leak.h"
 
+#include "core/index_walk.h"
 #include "imaging/phantom/phantom.h"
 #include "solver/executor.h"
 #include "tests/document/lobes.h"
@@ -69,6 +70,34 @@ bool leaks_in_the_end(const Lobes& lobes) {
   const auto executor = executor_of(lobes, solver::ExecutorKind::host);
   if (!executor->advance({.steps = kMost, .until_converged = true})) qFatal("no steps");
   return has_leaked(lobes, executor->snapshot()->mask());
+}
+
+struct Block {
+  Index3 first{0};
+  Index3 last{0};  // inside, too
+};
+
+// Of a surface that holds the first block at the first look, and one more with each look after it.
+std::optional<document::Leak> leak_among(const std::vector<Block>& blocks) {
+  auto volume = std::make_shared<Volume>();
+  volume->geometry.size = Index3(48, 32, 16);
+  const auto count = static_cast<std::size_t>(volume->geometry.voxel_count());
+  volume->voxels = std::vector<std::int16_t>(count, 100);
+  const auto executor = solver::make_executor(solver::ExecutorKind::host, volume, {});
+  if (!executor) qFatal("%s", executor.error().message.c_str());
+  std::vector<float> phi(count, -0.5F);
+  solver::FrontPatches patches(volume->geometry);
+  for (const Block& block : blocks) {
+    for_each_index(block.first, block.last + Index3(1), [&](Index3 voxel) {
+      phi[static_cast<std::size_t>(volume->geometry.offset(voxel))] = 0.5F;
+    });
+    const double band = (*executor)->band();
+    if (!(*executor)->restore(solver::Field::from_dense(volume->geometry, phi, band))) qFatal("no phi");
+    const bool first = &block == &blocks.front();
+    if (first ? !patches.restart(**executor) : !patches.look(**executor)) qFatal("no look");
+  }
+  document::LeakFinder finder;
+  return finder.find(patches, {});
 }
 
 Lobes lobes_of(std::string_view kind, double alpha) {
@@ -161,6 +190,24 @@ class LeakTest : public QObject {
     QCOMPARE(reference.step, host.step);
     QVERIFY(reference.leak->middle == host.leak->middle);
     QCOMPARE(reference.leak->area_mm2, host.leak->area_mm2);
+  }
+
+  // The front comes around an edge of the body, where no face of a voxel closes its way.
+  void a_neck_has_faces_that_close_it() {
+    const auto leak = leak_among({{{2, 2, 2}, {11, 11, 11}},
+                                  {{12, 12, 6}, {12, 12, 6}},
+                                  {{12, 12, 2}, {21, 21, 11}},
+                                  {{22, 12, 2}, {25, 21, 11}}});
+    QVERIFY(leak);
+    QCOMPARE(leak->passed, 2);
+    QCOMPARE(leak->area_mm2, 4.0);
+    QCOMPARE(leak->neck.size(), std::size_t{4});
+    QVERIFY(glm::distance(glm::dvec3(leak->middle), glm::dvec3(12, 12, 6)) == 1.0);
+  }
+
+  void what_has_come_from_nowhere_is_no_leak() {
+    QVERIFY(
+        !leak_among({{{2, 2, 2}, {11, 11, 11}}, {{22, 12, 2}, {31, 21, 11}}, {{32, 12, 2}, {35, 21, 11}}}));
   }
 
   void padding_and_the_border_of_the_volume_are_no_neck() {

@@ -63,6 +63,31 @@ class StepBackTest : public QObject {
     QVERIFY(Seen(level_set).phi == at_15.phi);
   }
 
+  void what_a_wall_cut_and_paint_healed_before_the_first_step_stays_whole_data() { add_executors(); }
+  void what_a_wall_cut_and_paint_healed_before_the_first_step_stays_whole() {
+    const glm::dvec3 place{1.3, -0.7, 0.4};  // the middle of the seed
+    for (const bool before_the_start : {false, true}) {
+      const auto document = make_case(lumpy_volume(), this_executor());
+      const Volume& volume = *document->volume();
+      document::LevelSet& level_set = document->level_set();
+      const document::Drive bare = level_set.drive();
+      const document::Drive walled = with_wall(*document, place, 2.0);
+      if (before_the_start) QCOMPARE(failure(level_set.set_drive(walled)), QString());
+      QCOMPARE(failure(level_set.begin(seed_in(volume))), QString());
+      if (!before_the_start) QCOMPARE(failure(level_set.set_drive(walled)), QString());
+      QCOMPARE(failure(level_set.set_drive(bare)), QString());
+      QCOMPARE(failure(level_set.paint(ball_at(volume, place, 4.0), solver::Brush::add)), QString());
+      const std::vector<float> start = values_of(level_set);
+      run(level_set, 2);
+      const Seen at_2(level_set);
+      run(level_set, 1);
+      QCOMPARE(failure(level_set.step_back(1)), QString());
+      QVERIFY(Seen(level_set) == at_2);
+      QCOMPARE(failure(level_set.step_back(2)), QString());
+      QVERIFY(values_of(level_set) == start);
+    }
+  }
+
   void a_cancelled_step_back_changes_nothing() {
     const auto document = begun_case();
     document::LevelSet& level_set = document->level_set();

@@ -81,6 +81,23 @@ class TakenRunTest : public QObject {
     QVERIFY(inside(level_set) == sweep.at(1, 1).inside);
   }
 
+  void runs_begin_without_walls_that_are_gone() {
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    QCOMPARE(failure(level_set.set_drive(with_wall(*document, {1.3, -0.7, 0.4}, 3.0))), QString());
+    run(level_set, 10);
+    QCOMPARE(failure(level_set.set_drive({})), QString());
+    const Seen before(level_set);
+    const auto start = start_of(level_set);
+    QVERIFY(Seen(level_set) == before);
+    const auto sweep = swept(start);
+    for (const int row : {0, 1}) {  // each from the same sweep
+      QCOMPARE(failure(level_set.take_run(start, sweep.at(1, row))), QString());
+      QVERIFY(inside(level_set) == sweep.at(1, row).inside);
+      QVERIFY(replayed(again(level_set.recipe()), document->volume()) == values_of(level_set));
+    }
+  }
+
   void functions_are_taken_with_their_numbers() {
     const auto document = begun_case();
     document::LevelSet& level_set = document->level_set();
