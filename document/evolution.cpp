@@ -10,20 +10,23 @@
 
 namespace tidemark::document {
 
-std::vector<std::string> differences(const Recipe& recipe, const Volume& volume) {
-  std::vector<std::string> found;
-  const glm::dvec3 then = recipe.source.spacing_mm;
+std::string spacing_difference(const glm::dvec3& then, const Volume& volume) {
   const glm::dvec3 now = volume.geometry.spacing_mm;
   bool same_spacing = true;
   for (int axis = 0; axis < 3; ++axis) {
     same_spacing = same_spacing && std::abs(then[axis] - now[axis]) <= 1e-3 * then[axis];
   }
-  if (!same_spacing) {
-    found.push_back(
-        fmt::format("the recipe was made for a spacing of {:.4g} x {:.4g} x {:.4g} mm, the volume "
-                    "has {:.4g} x {:.4g} x {:.4g}: the same alpha smooths differently",
-                    then.x, then.y, then.z, now.x, now.y, now.z));
-  }
+  if (same_spacing) return {};
+  return fmt::format(
+      "the recipe was made for a spacing of {:.4g} x {:.4g} x {:.4g} mm, the volume "
+      "has {:.4g} x {:.4g} x {:.4g}: the same alpha smooths differently",
+      then.x, then.y, then.z, now.x, now.y, now.z);
+}
+
+std::vector<std::string> differences(const Recipe& recipe, const Volume& volume) {
+  std::vector<std::string> found;
+  std::string spacing = spacing_difference(recipe.source.spacing_mm, volume);
+  if (!spacing.empty()) found.push_back(std::move(spacing));
   if (recipe.source.size != volume.geometry.size) {
     const Index3 size = recipe.source.size;
     found.push_back(

@@ -50,6 +50,8 @@ struct Evolution {
 // The differences between the volume and the recipe's, one sentence each: another spacing (smoothing is per
 // voxel) or other voxels lead to another level set.
 std::vector<std::string> differences(const Recipe& recipe, const Volume& volume);
+// The first of them alone, for a recipe that was made for that spacing; empty: it is the same.
+std::string spacing_difference(const glm::dvec3& then, const Volume& volume);
 
 // On the recipe's own volume, with the executor that it names, the result is the same to the last bit.
 Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> volume,

@@ -1,4 +1,5 @@
 // tidemark-cli cohort plan: from studies and a recipe to a work list.
+#include <map>
 #include <memory>
 #include <set>
 #include <span>
@@ -52,10 +53,11 @@ struct PlanArguments {
   std::vector<SphereArgument> seeds;
   std::optional<std::vector<double>> threshold;
 
-  [[nodiscard]] cohort::WorkRow defaults() const;
+  [[nodiscard]] cohort::WorkRow given() const;
 };
 
-cohort::WorkRow PlanArguments::defaults() const {
+// What options say of every case.
+cohort::WorkRow PlanArguments::given() const {
   cohort::WorkRow row;
   row.target = target;
   row.range = range;
@@ -71,6 +73,18 @@ cohort::WorkRow PlanArguments::defaults() const {
   return row;
 }
 
+// The options for columns of a list, for messages.
+constexpr std::pair<std::string_view, std::string_view> kOptionsOfColumns[] = {
+    {"threshold", "--init-threshold"},
+    {"within_mm", "--within"},
+    {"range", "--range"},
+    {"alpha", "--alpha"},
+    {"smooth_mm", "--smooth"},
+    {"steps, max_steps", "--steps, --max-steps"},
+    {"steps", "--steps"},
+    {"max_steps", "--max-steps"},
+    {"levels", "--levels"}};
+
 class PlanCommand {
  public:
   PlanCommand(Program& program, const PlanArguments& arguments)
@@ -82,10 +96,14 @@ class PlanCommand {
   Status take_outputs();
   Status take_recipe();
   Status check_source() const;
+  Status check_values() const;
   Status take_servers(Result<imaging::PacsConfiguration> servers);
   Status find();
   Status keep_rejected();
   Status check();
+  void take_values();
+  void warn_of_own_values(const cohort::WorkRow& given) const;
+  void warn_of(const std::vector<std::string>& texts) const;
   void say();
 
   Console& console_;
@@ -99,10 +117,11 @@ class PlanCommand {
 };
 
 Status PlanCommand::run() {
-  if (folder_.is_planned()) {
-    return fail(ErrorKind::usage, "--out {}: holds a cohort already; name a new folder", arguments_.out);
+  if (const Status free = folder_.check_free(); !free) {
+    return fail(free.error().kind, "--out {}", free.error().message);
   }
   TIDEMARK_TRY(check_source());
+  TIDEMARK_TRY(check_values());
   for (const auto step : {&PlanCommand::take_outputs, &PlanCommand::take_recipe, &PlanCommand::find,
                           &PlanCommand::keep_rejected, &PlanCommand::check}) {
     TIDEMARK_TRY((this->*step)());
@@ -163,6 +182,19 @@ Status PlanCommand::check_source() const {
   return {};
 }
 
+// A cohort with values that no case may have could never be run.
+Status PlanCommand::check_values() const {
+  const auto problems = cohort::problems_of_values(arguments_.given());
+  if (problems.empty()) return {};
+  const std::string_view problem = problems.front();
+  const std::size_t colon = problem.find(':');
+  const auto is_named = [&](const auto& one) { return one.first == problem.substr(0, colon); };
+  const auto* const option =
+      std::find_if(std::begin(kOptionsOfColumns), std::end(kOptionsOfColumns), is_named);
+  if (option == std::end(kOptionsOfColumns)) return fail(ErrorKind::usage, "{}", problem);
+  return fail(ErrorKind::usage, "{}{}", option->second, problem.substr(colon));
+}
+
 Status PlanCommand::find() {
   options_ = arguments_.find;
   if (!arguments_.servers.empty())
@@ -178,7 +210,8 @@ Status PlanCommand::find() {
   }
   for (const std::string& text : found->left_out) console_.log("left out: {}", text);
   if (!found->left_out.empty()) {
-    console_.say("Left out   {} series that cannot be loaded (--verbose names them)", found->left_out.size());
+    console_.say("Left out   {} series, files and folders that cannot be loaded (--verbose names them)",
+                 found->left_out.size());
   }
   found_ = std::move(*found);
   if (found_.source != "cohort" || !plan_.servers_file.empty()) return {};
@@ -221,15 +254,14 @@ Status PlanCommand::check() {
   if (options_.servers.servers.empty() && !arguments_.servers.empty()) {
     return fail(ErrorKind::usage, "--servers: no case of {} is on a server", arguments_.source);
   }
-  const cohort::WorkRow defaults = arguments_.defaults();
-  for (cohort::WorkRow& row : found_.list.rows) row.complete(defaults);
+  take_values();
   const cohort::SharedRecipe* recipe = plan_.recipe ? &*plan_.recipe : nullptr;
-  const std::vector<bool> good =
-      cohort::check_cases(found_, arguments_.source, recipe, options_.servers, console_.progress());
+  const std::vector<bool> good = cohort::check_cases(
+      found_, arguments_.source, recipe, arguments_.without_edits, options_.servers, console_.progress());
+  warn_of(found_.remarks);
   const std::vector<std::string>& problems = found_.list.problems;
   if (problems.empty()) return {};
-  for (std::size_t i = 0; i < std::min(problems.size(), kMostSaid); ++i) console_.warn(problems[i]);
-  if (problems.size() > kMostSaid) console_.warn(fmt::format("and {} more", problems.size() - kMostSaid));
+  warn_of(problems);
   if (!arguments_.skip_problems) {
     return fail(ErrorKind::input,
                 "{} problems in {} rows; nothing was written (--skip-problems leaves such rows out)",
@@ -246,6 +278,34 @@ Status PlanCommand::check() {
   return {};
 }
 
+// The rows of an earlier cohort have the values that it was planned with: what is given now replaces them.
+void PlanCommand::take_values() {
+  const bool is_again = found_.source == "cohort";
+  const cohort::WorkRow given = arguments_.given();
+  const auto take = is_again ? &cohort::WorkRow::replace : &cohort::WorkRow::complete;
+  for (cohort::WorkRow& row : found_.list.rows) (row.*take)(given);
+  if (is_again && plan_.recipe) warn_of_own_values(given);
+}
+
+// Whoever plans again with another recipe may take it for the one that counts.
+void PlanCommand::warn_of_own_values(const cohort::WorkRow& given) const {
+  std::map<std::string_view, std::size_t> rows;
+  for (const cohort::WorkRow& row : found_.list.rows) {
+    for (const std::string_view column : cohort::own_values(row, *plan_.recipe)) ++rows[column];
+  }
+  for (const std::string_view column : cohort::own_values(given, *plan_.recipe)) rows.erase(column);
+  for (const auto& [column, count] : rows) {
+    console_.warn(fmt::format("--recipe {}: {}: {} cases have their own, which counts", arguments_.recipe,
+                              column, count));
+  }
+}
+
+// Of very many the first ones.
+void PlanCommand::warn_of(const std::vector<std::string>& texts) const {
+  for (std::size_t i = 0; i < std::min(texts.size(), kMostSaid); ++i) console_.warn(texts[i]);
+  if (texts.size() > kMostSaid) console_.warn(fmt::format("and {} more", texts.size() - kMostSaid));
+}
+
 void PlanCommand::say() {
   console_.say("Planned    {} cases{}", found_.list.rows.size(),
                skipped_ > 0 ? fmt::format(", {} left out", skipped_) : "");
@@ -254,13 +314,14 @@ void PlanCommand::say() {
   Json object;
   object["cases"] = found_.list.rows.size();
   object["skipped"] = skipped_;
+  object["left_out"] = found_.left_out.size();
   object["work_list"] = folder_.work_list().string();
   object["recipe_checksum"] = plan_.recipe_checksum.empty() ? Json() : Json(plan_.recipe_checksum);
   console_.result(object);
 }
 
 void add_row_options(CLI::App& command, PlanArguments& arguments) {
-  const char* const kGroup = "Cases (what a row has of its own counts)";
+  const char* const kGroup = "Cases (what a row of a list has of its own counts)";
   command
       .add_flag(
           "--auto-start", arguments.auto_start,
@@ -339,7 +400,7 @@ void add_cohort_plan(CLI::App& cohort, Program& program) {
                   "What to do with each case, as segment and the desktop write it")
       ->type_name("FILE.json");
   command.add_flag("--without-edits", arguments->without_edits,
-                   "Leave out what the recipe paints at places of its own study");
+                   "Leave out what recipes paint at places of their own studies");
   command
       .add_option(
           "--output", arguments->outputs,

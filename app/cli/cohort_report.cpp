@@ -38,11 +38,20 @@ Status write_reports(const cohort::CohortFolder& folder, const cohort::Review& r
   return write_file(folder.path() / "report.html", *page);
 }
 
+// Before anything is written.
+Status check_bids(const cohort::CohortFolder& folder, const std::string& source, const std::string& to) {
+  if (to.empty()) return {};
+  const Status good = cohort::check_bids_folder(folder, source, to);
+  if (!good) return fail(good.error().kind, "--bids {}", good.error().message);
+  return {};
+}
+
 Status run(Program& program, const ReportArguments& arguments) {
   Console& console = program.console;
   const cohort::CohortFolder folder(std::filesystem::absolute(arguments.folder).lexically_normal());
   const auto plan = folder.load_plan();
   if (!plan) return pass_on(plan);
+  TIDEMARK_TRY(check_bids(folder, plan->source, arguments.bids));
   const auto list = folder.load_work_list();
   if (!list) return pass_on(list);
   const auto review = cohort::review(folder, *list, console.progress());

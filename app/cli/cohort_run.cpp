@@ -22,7 +22,7 @@ constexpr CommandHelp kCohortRun{
     "long or too much memory gets its status, too, and the others go on. Run it again after an interrupt, or "
     "on\n"
     "several machines with one disk: no case is done twice. Cases without a result end with code 0, and are\n"
-    "counted; --strict makes it 3.",
+    "counted; --strict makes it 3, also for those of earlier runs.",
     "  tidemark-cli cohort run livers --jobs 8 --timeout 600\n"
     "  tidemark-cli cohort run livers --shard 3/20\n"
     "  tidemark-cli cohort run livers --retry --timeout 7200 --memory 16000\n"};
@@ -134,10 +134,10 @@ Status run(Program& program, const RunArguments& arguments) {
   if (!tally) return pass_on(tally);
   say(console, *tally, watch.seconds());
   console.result(to_json(*tally, watch.seconds()));
-  if (arguments.strict && tally->without_result() > 0) {
-    return fail(ErrorKind::input, "{} cases have no result", tally->without_result());
-  }
-  return {};
+  if (!arguments.strict) return {};
+  const std::int64_t without_result = cohort::finished_without_result(folder, *list, *options);
+  if (without_result == 0) return {};
+  return fail(ErrorKind::input, "{} cases have no result (see cohort report)", without_result);
 }
 
 }  // namespace

@@ -138,13 +138,14 @@ Status run(Program& program, const FilmOptions& options) {
   if (!views) return pass_on(views);
   Outputs outputs;
   TIDEMARK_TRY(outputs.announce_gif("--out", options.render.out));
-  TIDEMARK_TRY(outputs.spare(options.render.study.path));
+  for (const std::string& input : inputs_of(options.render)) {
+    TIDEMARK_TRY(outputs.spare(input));
+  }
 
   document::Recipe recipe;
   std::int64_t frames = options.frames.value_or(kFrames);
   std::int64_t every = 0;
   if (!options.render.recipe.empty()) {
-    TIDEMARK_TRY(outputs.spare(options.render.recipe));
     auto loaded = document::Recipe::load(options.render.recipe);
     if (!loaded) return pass_on(loaded);
     recipe = std::move(*loaded);

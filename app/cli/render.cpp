@@ -42,7 +42,9 @@ Status run(Program& program, const RenderOptions& options) {
   if (!views) return pass_on(views);
   Outputs outputs;
   TIDEMARK_TRY(outputs.announce_png("--out", options.out));
-  TIDEMARK_TRY(outputs.spare(options.study.path));
+  for (const std::string& input : inputs_of(options)) {
+    TIDEMARK_TRY(outputs.spare(input));
+  }
   auto scene = make_scene(options, std::move(*views), console);
   if (!scene) return pass_on(scene);
   const auto picture = draw(*scene, options, console.progress());

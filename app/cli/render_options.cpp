@@ -220,6 +220,15 @@ bool has_surface(const RenderOptions& options) {
   return !options.mask.empty() || !options.phi.empty() || !options.recipe.empty();
 }
 
+std::vector<std::string> inputs_of(const RenderOptions& options) {
+  std::vector<std::string> inputs = inputs_of(options.drive);
+  for (const std::string& input : {options.study.path, options.mask, options.phi, options.recipe,
+                                   options.labels, options.transfer_function}) {
+    if (!input.empty()) inputs.push_back(input);
+  }
+  return inputs;
+}
+
 bool has_speed(const RenderOptions& options) {
   return (options.target && options.range) || !options.drive.uses_tent();
 }

@@ -65,6 +65,9 @@ bool has_speed(const RenderOptions& options);
 // ErrorKind::input for an error in a file of a transfer function).
 Result<Views> views_of(const RenderOptions& options);
 
+// The files that are read.
+[[nodiscard]] std::vector<std::string> inputs_of(const RenderOptions& options);
+
 // Without --out.
 void add_render_options(CLI::App& command, RenderOptions& options);
 

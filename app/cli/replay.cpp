@@ -1,6 +1,7 @@
 // tidemark-cli replay: the replay of a recipe.
 #include <memory>
 
+#include "app/cli/drive_options.h"
 #include "app/cli/program.h"
 #include "app/cli/recipe_files.h"
 #include "app/cli/results.h"
@@ -33,7 +34,9 @@ struct ReplayArguments {
 Status check(const ReplayArguments& arguments, ResultWriter& writer) {
   TIDEMARK_TRY(check(arguments.solver));
   TIDEMARK_TRY(writer.prepare());
-  for (const std::string& input : {arguments.recipe, arguments.study.path}) {
+  std::vector<std::string> inputs = inputs_of(arguments.images);
+  inputs.insert(inputs.end(), {arguments.recipe, arguments.study.path});
+  for (const std::string& input : inputs) {
     TIDEMARK_TRY(writer.spare(input));
   }
   return {};
@@ -88,6 +91,7 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   }
   RunResults results = results_of(*recipe, *volume, study->series.uid, std::move(*evolution), arguments);
   results.dicom_files = imaging::dicom_files_of(study->series);
+  results.oriented = study->series.oriented;
   if (writer.wants_recipe()) results.recipe.source.checksum = document::checksum_of(*volume);
   volume.reset();
   TIDEMARK_TRY(writer.write(results));

@@ -6,7 +6,10 @@
 
 #include "core/atomic_file.h"
 #include "core/json/json.h"
+#include "core/json/json_field.h"
 #include "core/json/json_text.h"
+#include "core/lies_in.h"
+#include "core/text_file.h"
 #include "document/cohort/work_list.h"
 
 namespace tidemark::cohort {
@@ -15,6 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kVersion = "1.9.0";
+constexpr const char* kDescription = "dataset_description.json";
+constexpr const char* kDerivative = "derivative";
+constexpr const char* kMaker = "Tidemark";
+constexpr std::size_t kLargestDescription = std::size_t{1} << 20;  // bytes
 
 std::string letters_of(std::string_view text) {
   std::string letters;
@@ -73,8 +80,8 @@ std::string url_of(const std::string& source) {
 Json description_of(const BidsOptions& options) {
   return {{"Name", "Tidemark masks"},
           {"BIDSVersion", kVersion},
-          {"DatasetType", "derivative"},
-          {"GeneratedBy", Json::array({{{"Name", "Tidemark"}, {"Version", options.program}}})},
+          {"DatasetType", kDerivative},
+          {"GeneratedBy", Json::array({{{"Name", kMaker}, {"Version", options.program}}})},
           {"SourceDatasets", Json::array({{{"URL", url_of(options.source)}}})},
           {"DatasetLinks", {{"raw", url_of(options.source)}}}};
 }
@@ -90,6 +97,18 @@ Json sidecar_of(const CaseStatus& status, const BidsOptions& options) {
   return object;
 }
 
+// A dataset that description_of() describes.
+bool is_own_dataset(const fs::path& folder) {
+  const std::string file = (folder / kDescription).string();
+  const auto text = read_text_file(file, kLargestDescription);
+  if (!text) return false;
+  const auto document = JsonDocument::parse(*text, file);
+  if (!document) return false;
+  const JsonField root = root_of(*document, file);
+  const JsonField maker = root.at("GeneratedBy").at(std::size_t{0});
+  return root.at("DatasetType").text() == kDerivative && maker.at("Name").text() == kMaker;
+}
+
 // A second name where the disk allows it: the masks are there once.
 Status place_mask(const fs::path& from, const fs::path& to) {
   std::error_code error;
@@ -101,8 +120,31 @@ Status place_mask(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
+Status check_bids_folder(const CohortFolder& folder, const std::string& source, const fs::path& to) {
+  if (lies_in(to, folder.path()) || lies_in(folder.path(), to)) {
+    return fail(ErrorKind::usage, "{}: lies in the cohort's folder, or holds it; name another folder",
+                to.string());
+  }
+  if (!source.starts_with(kPacsSource)) {
+    // Where BIDS wants them.
+    const bool is_derivative = lies_in(to, fs::path(source) / "derivatives");
+    if ((lies_in(to, source) && !is_derivative) || lies_in(source, to)) {
+      return fail(
+          ErrorKind::usage,
+          "{}: lies among the studies of {}, or holds them; name a folder outside, or in derivatives/",
+          to.string(), source);
+    }
+  }
+  std::error_code error;
+  const bool is_free = !fs::exists(to, error) || (fs::is_directory(to, error) && fs::is_empty(to, error));
+  if (is_free || is_own_dataset(to)) return {};
+  return fail(ErrorKind::usage, "{}: holds something else than masks of cohort report; name a new folder",
+              to.string());
+}
+
 Result<std::int64_t> write_bids(const CohortFolder& folder, const Review& review, const BidsOptions& options,
                                 const fs::path& to, const Progress& progress) {
+  TIDEMARK_TRY(check_bids_folder(folder, options.source, to));
   auto target = AtomicFolder::create(to);
   if (!target) return pass_on(target);
   const fs::path root = target->temporary_path();
@@ -126,7 +168,7 @@ Result<std::int64_t> write_bids(const CohortFolder& folder, const Review& review
       TIDEMARK_TRY(write_file(stem.string() + ".json", json_text(sidecar_of(one.status, options))));
       ++count;
     }
-    TIDEMARK_TRY(write_file(root / "dataset_description.json", json_text(description_of(options))));
+    TIDEMARK_TRY(write_file(root / kDescription, json_text(description_of(options))));
     TIDEMARK_TRY(write_file(root / "README", "Masks by Tidemark, a level-set surface. Research use only.\n"));
   }
   TIDEMARK_TRY(sync_file_system(root));

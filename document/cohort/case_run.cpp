@@ -89,9 +89,10 @@ Status Case::take_recipe() {
   if (row_.recipe.empty()) return {};
   const auto text = read_text_file(row_.recipe, document::Recipe::kLargestFile);
   if (!text) return pass_on(text);
-  auto own = SharedRecipe::parse(*text, row_.recipe.string());
+  auto own = SharedRecipe::parse(*text, row_.recipe.string(), true);
   if (!own) return pass_on(own);
   status_.recipe_checksum = document::sha256(std::as_bytes(std::span(*text)));
+  status_.remarks = own->remarks();
   own_recipe_ = std::move(*own);
   shared_ = &*own_recipe_;
   return {};
@@ -139,7 +140,8 @@ Status Case::load() {
   auto study = load_series();
   if (!study) return pass_on(study);
   series_ = std::move(study->series);
-  status_.remarks = study->volume.changes;
+  const std::vector<std::string>& changes = study->volume.changes;
+  status_.remarks.insert(status_.remarks.end(), changes.begin(), changes.end());
   status_.input_checksum = document::checksum_of(study->volume);
   recipe_.source = {study->volume.geometry.size, study->volume.geometry.spacing_mm, row_.series,
                     status_.input_checksum, series_.policy};
@@ -154,6 +156,10 @@ Status Case::load() {
 
 Status Case::fill_in() {
   recipe_.parameters = parameters_of(row_, shared_);
+  if (shared_ != nullptr && !row_.alpha) {
+    std::string spacing = document::spacing_difference(shared_->spacing_mm(), *source_);
+    if (!spacing.empty()) status_.remarks.push_back(std::move(spacing));
+  }
   recipe_.steps = row_.steps.value_or(row_.max_steps.value_or(solver::kMostStepsToRest));
   if (shared_ != nullptr && !row_.has_start() && !row_.auto_start) recipe_.start = shared_->start();
   recipe_.start.levels =

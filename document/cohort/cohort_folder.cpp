@@ -70,6 +70,19 @@ bool CohortFolder::is_planned() const {
   return fs::exists(plan(), ignored);
 }
 
+Status CohortFolder::check_free() const {
+  if (is_planned()) {
+    return fail(ErrorKind::usage, "{}: holds a cohort already; name a new folder", folder_.string());
+  }
+  std::error_code ignored;
+  for (const fs::path& file : {work_list(), recipe()}) {
+    if (!fs::exists(file, ignored)) continue;
+    return fail(ErrorKind::usage, "{}: is there already, and a plan would replace it; name a new folder",
+                file.string());
+  }
+  return {};
+}
+
 Result<std::vector<std::string>> CohortFolder::finished_ids() const {
   std::vector<std::string> ids;
   std::error_code error;
@@ -94,7 +107,7 @@ Result<CohortPlan> CohortFolder::load_plan() const {
   if (document::sha256(std::as_bytes(std::span(*recipe_text))) != plan->recipe_checksum) {
     return fail(ErrorKind::input, "{}: is another one than was planned with", recipe().string());
   }
-  auto shared = SharedRecipe::parse(*recipe_text, recipe().string());
+  auto shared = SharedRecipe::parse(*recipe_text, recipe().string(), true);
   if (!shared) return pass_on(shared);
   plan->recipe = std::move(*shared);
   return plan;
@@ -108,17 +121,19 @@ Result<WorkList> CohortFolder::load_work_list() const {
 
 Status CohortFolder::write_plan(const CohortPlan& plan, const WorkList& list,
                                 const std::string& recipe_text) const {
-  if (is_planned()) {
-    return fail(ErrorKind::usage, "{}: holds a cohort already; name a new folder", folder_.string());
-  }
+  TIDEMARK_TRY(check_free());
   for (const fs::path& folder : {cases(), leases(), staging()}) {
     TIDEMARK_TRY(make_folder(folder));
   }
-  if (!recipe_text.empty()) {
-    TIDEMARK_TRY(write_file(recipe(), recipe_text));
-  }
-  TIDEMARK_TRY(write_file(work_list(), list.to_text()));
-  return write_file(this->plan(), json_text(to_json(plan)));
+  Status written;
+  if (!recipe_text.empty()) written = write_file(recipe(), recipe_text);
+  if (written) written = write_file(work_list(), list.to_text());
+  if (written) written = write_file(this->plan(), json_text(to_json(plan)));
+  if (written) return written;
+  // They would stand in the way of the next try.
+  std::error_code ignored;
+  for (const fs::path& file : {recipe(), work_list()}) fs::remove(file, ignored);
+  return written;
 }
 
 }  // namespace tidemark::cohort

@@ -59,6 +59,9 @@ class CohortFolder {
   }
   [[nodiscard]] std::filesystem::path decisions() const { return folder_ / "decisions.csv"; }
   [[nodiscard]] bool is_planned() const;
+  // Whether a plan would replace nothing. Fails (ErrorKind::usage) where there is one already, or a work list
+  // or a recipe of somebody else.
+  [[nodiscard]] Status check_free() const;
 
   // The names in cases/. Fails (ErrorKind::input).
   [[nodiscard]] Result<std::vector<std::string>> finished_ids() const;
@@ -67,8 +70,8 @@ class CohortFolder {
   [[nodiscard]] Result<CohortPlan> load_plan() const;
   // The rows, all in order. Fails likewise, with the first problem.
   [[nodiscard]] Result<WorkList> load_work_list() const;
-  // Makes the folders and writes the plan, its recipe and its work list; plan.json is the last. Fails with
-  // ErrorKind::usage where there is a plan already, and with ErrorKind::write.
+  // Makes the folders and writes the plan, its recipe and its work list, or none of these files; plan.json is
+  // the last. Fails as check_free() does, and with ErrorKind::write.
   Status write_plan(const CohortPlan& plan, const WorkList& list, const std::string& recipe_text) const;
 
  private:

@@ -12,7 +12,10 @@
 #include "core/text_file.h"
 #include "core/thread_pool.h"
 #include "document/cohort/cohort_folder.h"
+#include "imaging/archive/study_archive.h"
+#include "imaging/dicom/dicom.h"
 #include "imaging/files/volume_file.h"
+#include "imaging/guard/guarded.h"
 #include "imaging/load_study.h"
 
 namespace tidemark::cohort {
@@ -112,14 +115,31 @@ fs::path folder_of(const imaging::Series& series) {
   return folder;
 }
 
+// Of a file that could not be read. Pictures beside studies are previews of them.
+bool seems_an_image(const fs::path& file) {
+  if (imaging::is_readable_volume_file(file)) return !imaging::is_picture_file(file);
+  return has_suffix(file, ".dcm") || imaging::looks_like_dicom(file) || imaging::is_zip_archive(file);
+}
+
 Result<FoundCases> find_in_folder(const fs::path& folder, const FindOptions& options,
                                   const Progress& progress) {
   const auto catalogue = imaging::find_series(folder, progress);
   if (!catalogue) return pass_on(catalogue);
-  FoundCases found{"folder", {}, {}, {}, {}};
+  FoundCases found{"folder", {}, {}, {}, {}, {}};
   Collector collector(folder, options);
-  const auto meant = imaging::meant_series(*catalogue, {});
-  for (const imaging::Series* series : meant) {
+  const auto leave_out = [&](const fs::path& file, const std::string& reason) {
+    if (!matches(options.match, file, folder)) return;
+    found.left_out.push_back(file.string() + ": " + imaging::without_path(reason, file));
+  };
+  // One that is damaged has no size, by which it would be meant.
+  const auto is_broken_file = [](const imaging::Series& series) {
+    return !series.loadable && !series.files.empty() && imaging::dicom_files_of(series).empty();
+  };
+  for (const imaging::Series& series : catalogue->series) {
+    if (is_broken_file(series)) leave_out(series.files.front(), series.reason);
+  }
+  for (const imaging::Series* series : imaging::meant_series(*catalogue, {})) {
+    if (is_broken_file(*series)) continue;
     if (!series->loadable || series->files.empty()) {
       found.left_out.push_back(fmt::format("{}: {}", series->description, series->reason));
       continue;
@@ -132,20 +152,25 @@ Result<FoundCases> find_in_folder(const fs::path& folder, const FindOptions& opt
     if (is_file) found.grids[input.string()] = series->geometry;
     collector.add(input, is_file ? std::string() : series->uid, name);
   }
+  for (const imaging::SkippedFile& skipped : catalogue->skipped) {
+    if (seems_an_image(skipped.file)) leave_out(skipped.file, skipped.reason);
+  }
   found.list = collector.take();
   return found;
 }
 
 // BIDS: sub-LABEL/[ses-LABEL/]anat/*.nii.gz; what follows from the images lies in derivatives/.
 Result<FoundCases> find_in_bids(const fs::path& root, const FindOptions& options, const Progress& progress) {
-  FoundCases found{"bids", {}, {}, {}, {}};
+  FoundCases found{"bids", {}, {}, {}, {}, {}};
   Collector collector(root, options);
-  std::error_code error;
   const auto each = [&](const fs::path& folder, std::string_view prefix, const auto& visit) {
+    std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
       if (entry->path().filename().string().starts_with(prefix)) visit(entry->path());
     }
-    error.clear();
+    // Not all that is named so is a subject, and not each subject has all folders.
+    const bool is_none = error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
+    if (error && !is_none) found.left_out.push_back(folder.string() + ": cannot be read: " + error.message());
   };
   const auto look_in = [&](const fs::path& folder) {
     each(folder / "anat", "sub-", [&](const fs::path& file) {
@@ -165,7 +190,7 @@ Result<FoundCases> find_in_bids(const fs::path& root, const FindOptions& options
 Result<FoundCases> find_in_list(const fs::path& file, const char* source) {
   auto list = WorkList::load(file);
   if (!list) return pass_on(list);
-  return FoundCases{source, {}, std::move(*list), {}, {}};
+  return FoundCases{source, {}, std::move(*list), {}, {}, {}};
 }
 
 Result<FoundCases> find_on_server(const std::string& name, const FindOptions& options,
@@ -174,7 +199,7 @@ Result<FoundCases> find_on_server(const std::string& name, const FindOptions& op
   if (!server) return pass_on(server);
   auto list = find_in_pacs(*server, options.query, options.servers.limits, progress);
   if (!list) return pass_on(list);
-  return FoundCases{"pacs", {}, std::move(*list), {}, {}};
+  return FoundCases{"pacs", {}, std::move(*list), {}, {}, {}};
 }
 
 Result<FoundCases> find_on_disk(const fs::path& path, const FindOptions& options, const Progress& progress) {
@@ -192,14 +217,15 @@ Result<FoundCases> find_on_disk(const fs::path& path, const FindOptions& options
 // Reads each volume's header once, whoever has it as an input.
 class RowChecker {
  public:
-  RowChecker(const SharedRecipe* recipe, const std::map<std::string, Geometry>& grids,
+  RowChecker(const SharedRecipe* recipe, bool without_edits, const std::map<std::string, Geometry>& grids,
              const imaging::PacsConfiguration& servers)
-      : recipe_(recipe), grids_(grids), servers_(servers) {}
+      : recipe_(recipe), without_edits_(without_edits), grids_(grids), servers_(servers) {}
 
-  // Recipes of rows are read once, before any row is checked.
-  void add_recipe_of(const WorkRow& row) {
+  // Recipes of rows are read once, before any row is checked. What is left out of them is a remark each.
+  void add_recipe_of(const WorkRow& row, std::vector<std::string>& remarks) {
     if (row.recipe.empty() || own_.contains(row.recipe.string()) || !is_there(row.recipe)) return;
-    own_.emplace(row.recipe.string(), load(row.recipe));
+    const auto& own = own_.emplace(row.recipe.string(), load(row.recipe)).first->second;
+    if (own) remarks.insert(remarks.end(), own->remarks().begin(), own->remarks().end());
   }
 
   // May be called from several threads at once.
@@ -232,10 +258,10 @@ class RowChecker {
     return nullptr;
   }
 
-  static Result<SharedRecipe> load(const fs::path& file) {
+  [[nodiscard]] Result<SharedRecipe> load(const fs::path& file) const {
     const auto text = read_text_file(file, document::Recipe::kLargestFile);
     if (!text) return pass_on(text);
-    return SharedRecipe::parse(*text, file.string());
+    return SharedRecipe::parse(*text, file.string(), without_edits_);
   }
 
   // Of a volume file; nothing where it is DICOM, or has a problem.
@@ -270,6 +296,7 @@ class RowChecker {
   }
 
   const SharedRecipe* recipe_;
+  bool without_edits_;
   const std::map<std::string, Geometry>& grids_;
   const imaging::PacsConfiguration& servers_;
   std::unordered_map<std::string, Result<SharedRecipe>> own_;
@@ -293,10 +320,11 @@ Result<FoundCases> find_cases(const std::string& source, const FindOptions& opti
 }
 
 std::vector<bool> check_cases(FoundCases& found, const std::string& file, const SharedRecipe* recipe,
-                              const imaging::PacsConfiguration& servers, const Progress& progress) {
+                              bool without_edits, const imaging::PacsConfiguration& servers,
+                              const Progress& progress) {
   WorkList& list = found.list;
-  RowChecker checker(recipe, found.grids, servers);
-  for (const WorkRow& row : list.rows) checker.add_recipe_of(row);
+  RowChecker checker(recipe, without_edits, found.grids, servers);
+  for (const WorkRow& row : list.rows) checker.add_recipe_of(row, found.remarks);
   const auto count = static_cast<std::int64_t>(list.rows.size());
   std::vector<std::vector<std::string>> problems(list.rows.size());
   std::atomic<std::int64_t> checked{0};

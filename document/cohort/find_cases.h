@@ -32,6 +32,7 @@ struct FoundCases {
   WorkList list;
   std::map<std::string, Geometry> grids;  // of inputs whose headers were read, by their path
   std::vector<std::string> left_out;      // what was found and is no case, one sentence each
+  std::vector<std::string> remarks;       // on recipes of rows: what is left out of them, one sentence each
 };
 
 // In a list (.csv), in the work list of another cohort, on a server ("pacs:SERVER"), in BIDS (a folder with
@@ -42,9 +43,11 @@ Result<FoundCases> find_cases(const std::string& source, const FindOptions& opti
 
 // Adds what is wrong with rows to the list's problems: files that are not there, headers that are refused,
 // servers that are not known, starts outside of the volume, and what is missing for a run with that recipe
-// (null: none). `file` names the list. Of DICOM no header is read: finding them has done so, or a run will.
-// Returns whether each row is good.
+// (null: none). Recipes of rows may hold no edits, unless `without_edits` leaves them out; what is left out
+// of them is among the remarks. `file` names the list. Of DICOM no header is read: finding them has done so,
+// or a run will. Returns whether each row is good.
 std::vector<bool> check_cases(FoundCases& found, const std::string& file, const SharedRecipe* recipe,
-                              const imaging::PacsConfiguration& servers, const Progress& progress = {});
+                              bool without_edits, const imaging::PacsConfiguration& servers,
+                              const Progress& progress = {});
 
 }  // namespace tidemark::cohort

@@ -27,6 +27,10 @@ constexpr double kLongestWait_s = 0.1;      // of a case that is complete, for o
 constexpr int kLook_ms = 50;                // between looks at limits and at the request to stop
 constexpr const char* kFormer = ".former";  // behind the name of a case that is being replaced
 
+bool is_in_shard(std::size_t row, const RunOptions& options) {
+  return static_cast<std::int64_t>(row) % options.shards == options.shard - 1;
+}
+
 fs::path staging_folder(const fs::path& folder, const std::string& id, std::int64_t number) {
   return folder / fmt::format("{}.{}", id, number);
 }
@@ -155,7 +159,7 @@ void Runner::sweep() {
 // Runs that begin together start at different rows: they would meet at each case otherwise.
 void Runner::choose_rows() {
   for (std::size_t i = 0; i < list_.rows.size(); ++i) {
-    if (static_cast<std::int64_t>(i) % options_.shards != options_.shard - 1) continue;
+    if (!is_in_shard(i, options_)) continue;
     ++tally_.rows;
     if (done_.contains(list_.rows[i].id)) {
       ++tally_.before;
@@ -401,6 +405,19 @@ std::int64_t RunTally::computed() const {
 
 std::int64_t RunTally::without_result() const {
   return computed() - outcomes[static_cast<int>(CaseOutcome::done)];
+}
+
+std::int64_t finished_without_result(const CohortFolder& folder, const WorkList& list,
+                                     const RunOptions& options) {
+  std::int64_t count = 0;
+  std::error_code ignored;
+  for (std::size_t i = 0; i < list.rows.size(); ++i) {
+    const std::string& id = list.rows[i].id;
+    if (!is_in_shard(i, options) || !fs::exists(folder.case_folder(id), ignored)) continue;
+    const auto status = CaseStatus::load(folder.status(id));
+    if (!status || status->outcome != CaseOutcome::done) ++count;
+  }
+  return count;
 }
 
 Result<RunTally> run_cohort(const CohortFolder& folder, const WorkList& list, const RunOptions& options,

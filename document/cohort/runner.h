@@ -36,6 +36,10 @@ struct RunTally {
   [[nodiscard]] std::int64_t without_result() const;  // of those
 };
 
+// The cases of the shard that are finished without a result, whoever has computed them. Reads their statuses.
+[[nodiscard]] std::int64_t finished_without_result(const CohortFolder& folder, const WorkList& list,
+                                                   const RunOptions& options);
+
 // A case appears in cases/ whole and synced, or not at all, and never twice. Fails with ErrorKind::cancelled
 // when it is stopped: what was begun is given back. Fails with ErrorKind::write and as compute() does, after
 // the cases that were complete have been kept.

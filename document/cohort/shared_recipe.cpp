@@ -71,6 +71,7 @@ Result<SharedRecipe> SharedRecipe::parse(std::string_view text, const std::strin
   }
   SharedRecipe shared;
   if (edits > 0) shared.remarks_.push_back(fmt::format("{}: {} painted edits: left out", file, edits));
+  shared.spacing_mm_ = recipe->source.spacing_mm;
   shared.parameters_ = recipe->final_parameters();
   shared.smoothed_mm_ = recipe->final_smoothed_mm();
   TIDEMARK_TRY(shared.take_start(*recipe, file));
@@ -96,6 +97,20 @@ std::vector<std::string> missing_in(const WorkRow& row, const SharedRecipe* reci
   if (needs_map && row.speed_map.empty()) missing.emplace_back("speed_map: the recipe needs one");
   if (!needs_map && !row.speed_map.empty()) missing.emplace_back("speed_map: the recipe uses none");
   return missing;
+}
+
+std::vector<std::string_view> own_values(const WorkRow& row, const SharedRecipe& recipe) {
+  if (!row.recipe.empty()) return {"recipe"};
+  std::vector<std::string_view> names;
+  const auto compare = [&](std::string_view name, const auto& own, const auto& other) {
+    if (own && *own != other) names.push_back(name);
+  };
+  compare("target", row.target, recipe.parameters().target);
+  compare("range", row.range, recipe.parameters().range);
+  compare("alpha", row.alpha, recipe.parameters().alpha);
+  compare("smooth_mm", row.smooth_mm, recipe.smoothed_mm());
+  compare("levels", row.levels, recipe.start().levels);
+  return names;
 }
 
 solver::Parameters parameters_of(const WorkRow& row, const SharedRecipe* recipe) {

@@ -17,10 +17,11 @@ class SharedRecipe {
  public:
   // Edits at places of the study are refused, unless `without_edits` leaves them out. Fails
   // (ErrorKind::input) naming `file` and what cannot be used.
-  static Result<SharedRecipe> parse(std::string_view text, const std::string& file,
-                                    bool without_edits = true);
+  static Result<SharedRecipe> parse(std::string_view text, const std::string& file, bool without_edits);
 
   [[nodiscard]] const solver::Parameters& parameters() const { return parameters_; }
+  // Of its own study's voxels.
+  [[nodiscard]] const glm::dvec3& spacing_mm() const { return spacing_mm_; }
   [[nodiscard]] double smoothed_mm() const { return smoothed_mm_; }
   [[nodiscard]] const solver::SpeedSetting& setting() const { return setting_; }
   [[nodiscard]] const document::Start& start() const { return start_; }
@@ -33,6 +34,7 @@ class SharedRecipe {
   Status take_start(const document::Recipe& recipe, const std::string& file);
   Status take_drive(const document::Recipe& recipe, const std::string& file);
 
+  glm::dvec3 spacing_mm_{1.0};
   solver::Parameters parameters_;
   double smoothed_mm_ = 0.0;
   solver::SpeedSetting setting_;
@@ -43,6 +45,9 @@ class SharedRecipe {
 
 // What a row lacks to be computed with that recipe (null: none), one sentence each.
 [[nodiscard]] std::vector<std::string> missing_in(const WorkRow& row, const SharedRecipe* recipe);
+
+// The columns whose values in the row count instead of other ones of the recipe.
+[[nodiscard]] std::vector<std::string_view> own_values(const WorkRow& row, const SharedRecipe& recipe);
 
 // The parameters of a case: its own, then the recipe's.
 [[nodiscard]] solver::Parameters parameters_of(const WorkRow& row, const SharedRecipe* recipe);

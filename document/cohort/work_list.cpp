@@ -125,7 +125,6 @@ Column threshold_column() {
     double numbers[2];
     Problem problem = read_numbers(text, numbers, 2);
     if (!problem.empty()) return problem;
-    if (numbers[0] > numbers[1]) return "the lower limit is above the upper limit";
     row.threshold = {numbers[0], numbers[1]};
     return {};
   };
@@ -247,8 +246,51 @@ void WorkRow::complete(const WorkRow& defaults) {
   take(levels, defaults.levels);
 }
 
-std::vector<std::string> problems_of(const WorkRow& row) {
+void WorkRow::replace(const WorkRow& given) {
+  const bool is_on_voxels = !mask.empty() || !seeds.empty();
+  if (given.has_start() || (given.auto_start && !is_on_voxels)) {
+    mask = given.mask;
+    seeds = given.seeds;
+    seeds_mm = given.seeds_mm;
+    threshold = given.threshold;
+    auto_start = given.auto_start;
+  }
+  if (mask.empty()) within_mm.reset();
+  const auto take = [](auto& own, const auto& other) {
+    if (other) own = other;
+  };
+  take(within_mm, mask.empty() ? std::nullopt : given.within_mm);
+  for (const auto member : {&WorkRow::target, &WorkRow::range, &WorkRow::alpha, &WorkRow::smooth_mm}) {
+    take(this->*member, given.*member);
+  }
+  if (given.steps || given.max_steps) {
+    steps = given.steps;
+    max_steps = given.max_steps;
+  }
+  take(levels, given.levels);
+}
+
+std::vector<std::string> problems_of_values(const WorkRow& row) {
   std::vector<std::string> problems;
+  const auto unless = [&](bool good, std::string problem) {
+    if (!good) problems.push_back(std::move(problem));
+  };
+  unless(!row.threshold || row.threshold->first <= row.threshold->second,
+         "threshold: the lower limit is above the upper limit");
+  unless(!row.within_mm || *row.within_mm > 0.0, "within_mm: must be greater than 0");
+  unless(!row.range || *row.range > 0.0, "range: must be greater than 0");
+  unless(!row.alpha || (*row.alpha >= 0.0 && *row.alpha <= 1.0), "alpha: must be 0 to 1");
+  unless(!row.smooth_mm || *row.smooth_mm >= 0.0, "smooth_mm: must not be below 0");
+  unless(!row.steps || !row.max_steps, "steps, max_steps: only one of them can be given");
+  unless(!row.steps || *row.steps <= kMostSteps, fmt::format("steps: must be at most {}", kMostSteps));
+  unless(!row.max_steps || (*row.max_steps > 0 && *row.max_steps <= kMostSteps),
+         fmt::format("max_steps: must be 1 to {}", kMostSteps));
+  unless(!row.levels || (*row.levels >= 1 && *row.levels <= 3), "levels: must be 1 to 3");
+  return problems;
+}
+
+std::vector<std::string> problems_of(const WorkRow& row) {
+  std::vector<std::string> problems = problems_of_values(row);
   const auto unless = [&](bool good, std::string problem) {
     if (!good) problems.push_back(std::move(problem));
   };
@@ -263,14 +305,7 @@ std::vector<std::string> problems_of(const WorkRow& row) {
          "study, series: both are needed where a server has them");
   const int starts = int{!row.mask.empty()} + int{row.threshold.has_value()};
   unless(starts < 2, "mask, threshold: a case starts from one of them");
-  unless(!row.within_mm || *row.within_mm > 0.0, "within_mm: must be greater than 0");
   unless(!row.within_mm || !row.mask.empty(), "within_mm: needs a mask");
-  unless(!row.range || *row.range > 0.0, "range: must be greater than 0");
-  unless(!row.alpha || (*row.alpha >= 0.0 && *row.alpha <= 1.0), "alpha: must be 0 to 1");
-  unless(!row.smooth_mm || *row.smooth_mm >= 0.0, "smooth_mm: must not be below 0");
-  unless(!row.steps || !row.max_steps, "steps, max_steps: only one of them can be given");
-  unless(!row.max_steps || *row.max_steps > 0, "max_steps: must be at least 1");
-  unless(!row.levels || (*row.levels >= 1 && *row.levels <= 3), "levels: must be 1 to 3");
   unless(!row.truth_label || !row.truth.empty(), "truth_label: needs a truth");
   return problems;
 }

@@ -51,6 +51,9 @@ struct WorkRow {
   [[nodiscard]] std::string place() const;
   // What it lacks is that of `defaults`; a start as a whole.
   void complete(const WorkRow& defaults);
+  // What is given takes the place of its own; a start as a whole, and the steps. A start on the voxels of its
+  // study stays where auto_start alone is given, which is for rows without a start.
+  void replace(const WorkRow& given);
   bool operator==(const WorkRow&) const = default;
 };
 
@@ -77,6 +80,9 @@ struct WorkList {
   // Adds a problem for each id that two rows have.
   void find_double_ids(const std::string& file);
 };
+
+// What is wrong with the values of a row, whatever its study is, one sentence each that begins with columns.
+[[nodiscard]] std::vector<std::string> problems_of_values(const WorkRow& row);
 
 // What is wrong with the row alone, one sentence each that begins with a column; no file is looked at.
 [[nodiscard]] std::vector<std::string> problems_of(const WorkRow& row);

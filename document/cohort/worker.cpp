@@ -64,12 +64,15 @@ void keep_memory() {
   ::mallopt(M_MMAP_THRESHOLD, kLargest);
 }
 
-// A page table's notes of what was touched: the peak is then that of the next piece of work.
-void forget_peak() {
-  const int descriptor = ::open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  static_cast<void>(!::write(descriptor, "5", 1));
-  ::close(descriptor);
+// A page table's notes of what was touched. A process that may not be dumped can write to them, but only root
+// can open them then.
+int open_notes() {
+  return ::open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC);
+}
+
+// The peak is then that of the next piece of work.
+void forget_peak(int notes) {
+  if (notes >= 0) static_cast<void>(!::write(notes, "5", 1));
 }
 
 // All of it, or false at the pipe's end.
@@ -109,6 +112,7 @@ bool tell(int pipe, const Status& done) {
                            pid_t parent, int requests, int answers) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it has ended before
+  const int notes = open_notes();
   // A dump of memory would hold the patient's images, and take as long as the case.
   ::prctl(PR_SET_DUMPABLE, 0);
   reset_signals();
@@ -116,7 +120,7 @@ bool tell(int pipe, const Status& done) {
   if (memory_bytes > 0) limit_memory(memory_bytes);
   keep_memory();
   for (WorkRequest request; read_all(requests, &request, sizeof request);) {
-    forget_peak();
+    forget_peak(notes);
     if (!tell(answers, without_exceptions([&] { return work(request); }))) break;
   }
   ::_exit(0);

@@ -8,19 +8,13 @@
 #include "core/csv.h"
 #include "core/json/json.h"
 #include "core/json/json_text.h"
+#include "core/lies_in.h"
 
 namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-bool lies_in(const fs::path& path, const fs::path& folder) {
-  std::error_code ignored;
-  const fs::path inner = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  const fs::path outer = fs::weakly_canonical(fs::absolute(folder, ignored), ignored);
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
 
 std::string_view word_of(Change change) {
   return kChangeNames[static_cast<std::size_t>(change)];

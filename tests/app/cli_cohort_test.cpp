@@ -70,6 +70,7 @@ class CliCohortTest : public QObject {
   void what_a_recipe_does_at_places_is_refused_unless_it_is_left_out();
   void rejected_cases_are_planned_again();
   void bids_is_read_and_derivatives_are_written();
+  void derivatives_take_the_place_of_nothing_but_derivatives();
   void a_script_for_slurm_is_cut_into_arrays();
   void wrong_usage_ends_with_2_and_one_line_data();
   void wrong_usage_ends_with_2_and_one_line();
@@ -156,6 +157,11 @@ void CliCohortTest::a_broken_case_and_an_endless_one_stop_no_other() {
   const Outcome strict = run_cli({"cohort", "run", text(out), "--timeout", "1", "--retry", "--strict"});
   QCOMPARE(strict.code, 3);
   QCOMPARE(status_of(out, "broken")["attempt"].toInt(), 2);
+  // What an earlier run has not done counts too; of another shard it does not.
+  const QStringList again{"cohort", "run", text(out), "--strict"};
+  const Outcome nothing_new = run_cli(again);
+  QVERIFY2(nothing_new.code == 3 && nothing_new.err.contains("2 cases have no result"), nothing_new.told());
+  QCOMPARE(must_run(again + QStringList{"--shard", "3/3"}).code, 0);
   must_run({"cohort", "report", text(out)});
 }
 
@@ -287,6 +293,41 @@ void CliCohortTest::bids_is_read_and_derivatives_are_written() {
   const QJsonObject description = json_of(bytes_of(folder / "masks/dataset_description.json"));
   QCOMPARE(description["DatasetType"].toString(), QString("derivative"));
   QCOMPARE(description["GeneratedBy"][0]["Name"].toString(), QString("Tidemark"));
+}
+
+void CliCohortTest::derivatives_take_the_place_of_nothing_but_derivatives() {
+  const TemporaryFolder folder;
+  const auto raw = folder / "raw";
+  const auto out = folder / "work" / "cohort";
+  std::filesystem::create_directories(raw / "sub-01/anat");
+  std::filesystem::copy(studies_ / "in" / "ball01.nii.gz", raw / "sub-01/anat/sub-01_T1w.nii.gz");
+  QVERIFY(write_file(raw / "dataset_description.json", "{\"Name\": \"x\", \"BIDSVersion\": \"1.9.0\"}"));
+  must_run(QStringList{"cohort", "plan", text(raw), "--seed-mm", kSeed, "--out", text(out)} + kParameters);
+  must_run({"cohort", "run", text(out)});
+  // Derivatives by others, and a folder of anything.
+  for (const char* name : {"other", "notes"}) std::filesystem::create_directories(folder / name);
+  QVERIFY(write_file(folder / "other/dataset_description.json",
+                     "{\"DatasetType\": \"derivative\", \"GeneratedBy\": [{\"Name\": \"fMRIPrep\"}]}"));
+  QVERIFY(write_file(folder / "notes/thesis.txt", "text"));
+  std::filesystem::create_directory_symlink(raw, folder / "link");
+  for (const auto& target : {raw, raw / "masks", folder / "link", out, out / "masks", folder / "work",
+                             folder.path(), folder / "other", folder / "notes"}) {
+    const Outcome outcome = run_cli({"cohort", "report", text(out), "--bids", text(target)});
+    QVERIFY2(outcome.failed_in_one_line(2) && outcome.err.contains("--bids " + text(target).toUtf8()),
+             outcome.told().constData());
+  }
+  QVERIFY(!std::filesystem::exists(out / "report.html"));
+  for (const auto& file : {raw / "sub-01/anat/sub-01_T1w.nii.gz", raw / "dataset_description.json",
+                           out / "cases/sub-01_T1w/mask.nii.gz", folder / "other/dataset_description.json",
+                           folder / "notes/thesis.txt"}) {
+    QVERIFY2(std::filesystem::exists(file), file.c_str());
+  }
+  // A new folder, an empty one, and twice the same.
+  std::filesystem::create_directory(folder / "empty");
+  for (const auto& target : {folder / "empty", folder / "empty", raw / "derivatives/tidemark"}) {
+    must_run({"cohort", "report", text(out), "--bids", text(target)});
+    QVERIFY(std::filesystem::exists(target / "sub-01/anat/sub-01_desc-tidemarkT1w_mask.nii.gz"));
+  }
 }
 
 void CliCohortTest::a_script_for_slurm_is_cut_into_arrays() {

@@ -137,6 +137,11 @@ class CliRecipeTest : public QObject {
     QTest::newRow("another grid") << good << QStringList{text(sphere_ / "series")} << 3 << "mask has a grid";
     QTest::newRow("onto itself") << good << QStringList{volume, "--out", good} << 2
                                  << "read and written at once";
+    const QString map = text(folder_ / "small.nii.gz");
+    for (const char* option : {"--speed-image", "--image"}) {
+      QTest::newRow(option) << good << QStringList{volume, option, map, "--out", map} << 2
+                            << "small.nii.gz: is read and written at once";
+    }
     QTest::newRow("unknown executor") << good << QStringList{volume, "--executor", "abacus"} << 2 << "abacus";
   }
   void what_cannot_be_replayed_ends_with_its_code() {

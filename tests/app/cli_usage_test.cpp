@@ -229,6 +229,10 @@ void CliUsageTest::an_output_may_not_be_the_input() {
       run_cli(QStringList{"segment", volume_, "--out", volume_} + ball_arguments(Index3(24)));
   QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
   QCOMPARE(bytes_of(folder_ / "ball.nrrd"), before);
+  // Labels may be a picture.
+  const QString labels = text(folder_ / "labels.png");
+  const Outcome picture = run_cli({"render", volume_, "--labels", labels, "--out", labels});
+  QVERIFY2(picture.failed_in_one_line(2) && picture.err.contains("read and written at once"), picture.told());
 }
 
 void CliUsageTest::the_program_links_no_qt() {

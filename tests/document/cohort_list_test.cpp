@@ -53,6 +53,7 @@ class CohortListTest : public QObject {
   void a_wrong_field_is_named_by_line_and_column();
   void ids_are_safe_names_of_folders();
   void a_row_takes_what_it_lacks();
+  void what_is_given_replaces_what_a_row_has();
 };
 
 void CohortListTest::a_list_is_written_as_it_was_read() {
@@ -225,6 +226,29 @@ void CohortListTest::a_row_takes_what_it_lacks() {
   WorkRow without_start;
   without_start.complete(defaults);
   QVERIFY(without_start.auto_start);
+}
+
+void CohortListTest::what_is_given_replaces_what_a_row_has() {
+  WorkRow row;
+  row.range = 100.0;
+  row.alpha = 0.7;
+  row.steps = 20;
+  row.mask = "/data/mask.nii.gz";
+  row.within_mm = 3.0;
+  WorkRow given;
+  given.range = 80.0;
+  given.max_steps = 50;
+  given.auto_start = true;
+  row.replace(given);
+  QCOMPARE(*row.range, 80.0);
+  QCOMPARE(*row.alpha, 0.7);
+  QVERIFY(!row.steps && row.max_steps == 50);
+  QVERIFY(!row.mask.empty() && !row.auto_start);
+  given.seeds_mm.push_back({});
+  row.replace(given);
+  QVERIFY(row.mask.empty() && !row.within_mm && row.auto_start);
+  QCOMPARE(row.seeds_mm.size(), std::size_t{1});
+  QVERIFY(cohort::problems_of_values(row).empty());
 }
 
 TIDEMARK_TEST(CohortListTest)

@@ -1,9 +1,13 @@
 // The run of a cohort with work that fails in every way, and that is killed at any moment.
 #include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <new>
@@ -13,6 +17,7 @@
 
 #include "core/atomic_file.h"
 #include "document/cohort/runner.h"
+#include "document/cohort/worker.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -106,6 +111,32 @@ Result<CaseStatus> misbehave(const WorkRow& row, const fs::path& folder) {
   return succeed(row, folder);
 }
 
+// Memory that is touched and given back at once, whoever allocates.
+void touch(std::size_t bytes) {
+  void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) return;
+  std::memset(memory, 1, bytes);
+  ::munmap(memory, bytes);
+}
+
+// The peaks of two pieces of work in one worker, in KiB; the first one touches so much more.
+std::pair<long, long> peaks_of_two(std::size_t bytes) {
+  const auto work = [&](const cohort::WorkRequest& request) -> Status {
+    if (request.row == 0) touch(bytes);
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return fail(ErrorKind::input, "{}", usage.ru_maxrss);
+  };
+  auto worker = cohort::Worker::start(work, 0);
+  if (!worker) return {};
+  long peaks[2];
+  for (int row = 0; row < 2; ++row) {
+    worker->send({row, 1, 1});
+    peaks[row] = std::atol(worker->answer().error.message.c_str());
+  }
+  return {peaks[0], peaks[1]};
+}
+
 }  // namespace
 
 class CohortRunTest : public QObject {
@@ -118,6 +149,7 @@ class CohortRunTest : public QObject {
   void what_is_out_of_reach_ends_no_case_beside_it();
   void cases_without_a_result_are_tried_again_when_asked();
   void shards_share_the_rows();
+  void the_peak_of_a_case_is_not_that_of_the_one_before();
   void a_stopped_run_gives_back_what_it_has_begun();
   void runs_side_by_side_do_no_case_twice();
   void killed_at_any_moment_no_case_is_lost_and_none_is_done_twice();
@@ -232,6 +264,22 @@ void CohortRunTest::shards_share_the_rows() {
     QVERIFY(cohort::run_cohort(planned.folder(), list, options, succeed));
     QCOMPARE(planned.done().size(), std::size_t(shard == 1 ? 4 : shard == 2 ? 7 : 10));
   }
+}
+
+// Root may do what users may not.
+void CohortRunTest::the_peak_of_a_case_is_not_that_of_the_one_before() {
+  constexpr std::size_t kBytes = std::size_t{256} << 20;
+  const pid_t process = ::fork();
+  if (process == 0) {
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() == 0 && (::setgid(kNobody) != 0 || ::setuid(kNobody) != 0)) ::_exit(2);
+    ::prctl(PR_SET_DUMPABLE, 1);  // as a program that was never root is
+    const auto [first, second] = peaks_of_two(kBytes);
+    ::_exit(second > 0 && first - second > static_cast<long>(kBytes / 2 / 1024) ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  QCOMPARE(status, 0);
 }
 
 void CohortRunTest::a_stopped_run_gives_back_what_it_has_begun() {
