@@ -128,10 +128,14 @@ std::optional<double> nrrd_unit_in_mm(std::string word) {
   return found->second;
 }
 
-// By "space units", a word in quotation marks for each axis of the space; an empty one says nothing.
+// A word in quotation marks for each axis of the space ("space units"), or of the file where there is none
+// ("units"; one of time does not count there). An empty one says nothing.
 Status take_nrrd_unit(const TextHeader& header, const std::string& name, PixelLayout& layout) {
-  const std::string stated = header.find("space units").value_or("");
+  const bool has_space = header.find("space directions").has_value();
+  const char* const field = has_space ? "space units" : "units";
+  const std::string stated = header.find(field).value_or("");
   std::optional<double> common;
+  std::string unknown;
   for (std::size_t begin = stated.find('"'); begin != std::string::npos;) {
     const std::size_t end = std::min(stated.find('"', begin + 1), stated.size());
     const std::string word = stated.substr(begin + 1, end - begin - 1);
@@ -139,13 +143,22 @@ Status take_nrrd_unit(const TextHeader& header, const std::string& name, PixelLa
     if (word.empty()) continue;
     const auto unit = nrrd_unit_in_mm(word);
     if (!unit) {
-      layout.warnings.push_back(
-          fmt::format("space units '{}' are not known; lengths are read as mm", word.substr(0, 80)));
-      return {};
+      unknown = word;
+      continue;
     }
     if (common.value_or(*unit) != *unit)
-      return fail(ErrorKind::input, "{}: space units: {} are not the same for all axes", name, stated);
+      return fail(ErrorKind::input, "{}: {}: {} are not the same for all axes", name, field, stated);
     common = unit;
+  }
+  if (!unknown.empty() && (has_space || !common)) {
+    unknown.resize(std::min<std::size_t>(unknown.size(), 80));
+    if (has_space) {
+      layout.warnings.push_back(
+          fmt::format("space units '{}' are not known; lengths are read as mm", unknown));
+    } else {
+      layout.warnings.push_back(fmt::format("units '{}' are not known; lengths are read as mm", unknown));
+    }
+    return {};
   }
   layout.spacing_scale = layout.origin_scale = common.value_or(1.0);
   return {};

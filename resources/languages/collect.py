@@ -24,7 +24,7 @@ MEMBERS = ("title", "text", "unit")
 TABLES = {"document/lesson_figure.cpp": r'^\s+\{"\w+", "[^"]*", "([^"]+)"',
           "document/start.cpp": r'"(nothing|mask|(?:mask|phi) \{\}|within \{\} mm|1 seed|\{\} seeds|1 eraser|\{\} erasers)"',
           "document/cohort/case_status.cpp": r'^\s+return "([a-z ]+)";',
-          "imaging/guard/nrrd_layout.cpp": r'"(space units [^"]+)"',
+          "imaging/guard/nrrd_layout.cpp": r'"((?:space )?units \'[^"]+)"',
           "imaging/results/segment_meaning.cpp": r'^\s+\{"([a-z-]+)", '}
 # Here every text of some words is part of what users are told of a file.
 SENTENCES = ("core", "document", "engine", "imaging")

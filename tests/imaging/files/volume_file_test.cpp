@@ -262,6 +262,19 @@ class VolumeFileTest : public QObject {
         QCOMPARE(series->warnings[0],
                  std::string("space units 'furlong' are not known; lengths are read as mm"));
     }
+    // Without a space each axis of the file has its unit, one of time among them.
+    const std::string by_axis = "NRRD0004\ntype: uchar\ndimension: {}\nsizes: 2 2 2{}\nencoding: raw\n";
+    put(folder / "v.nrrd", fmt::format(fmt::runtime(by_axis), 3, "") +
+                               "spacings: 200 200 300\nunits: \"um\" \"um\" \"um\"\n\nabcdefgh");
+    QVERIFY(glm::distance(read(folder / "v.nrrd").geometry.spacing_mm, glm::dvec3(0.2, 0.2, 0.3)) < 1e-9);
+    put(folder / "v.nrrd", fmt::format(fmt::runtime(by_axis), 4, " 1") +
+                               "spacings: 2 2 3 5\nunits: \"cm\" \"cm\" \"cm\" \"s\"\n\nabcdefgh");
+    QVERIFY(glm::distance(read(folder / "v.nrrd").geometry.spacing_mm, glm::dvec3(20, 20, 30)) < 1e-9);
+    put(folder / "v.nrrd", fmt::format(fmt::runtime(by_axis), 3, "") +
+                               "spacings: 2 2 3\nunits: \"ell\" \"ell\" \"ell\"\n\nabcdefgh");
+    const auto by_unknown = imaging::scan_volume_file(folder / "v.nrrd");
+    QCOMPARE(failure(by_unknown), QString());
+    QCOMPARE(std::ranges::count(by_unknown->warnings, "units 'ell' are not known; lengths are read as mm"), 1);
     put(folder / "v.nrrd", header(1.0, "\"mm\" \"mm\" \"um\""));
     const auto refused = imaging::read_volume_file(folder / "v.nrrd");
     QVERIFY(!refused);
