@@ -13,6 +13,7 @@
 #include "imaging/deidentify/method_codes.h"
 #include "imaging/deidentify/profile.h"
 #include "imaging/deidentify/shifted_date.h"
+#include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/element_text.h"
 
 namespace tidemark::imaging {
@@ -74,12 +75,14 @@ std::string keyword_of(const DcmTagKey& key) {
 
 }  // namespace
 
-std::string identity_of(DcmDataset& dataset) {
-  for (const DcmTagKey& key : {DCM_PatientID, DCM_PatientName, DCM_StudyInstanceUID}) {
-    std::string text = element_text(dataset, key);
-    if (!text.empty()) return text;
-  }
-  return {};
+PatientIdentity identity_of(DcmDataset& dataset) {
+  const std::string character_set = element_text(dataset, DCM_SpecificCharacterSet);
+  const auto text = [&](const DcmTagKey& key) {
+    return in_utf8_or_latin_1(element_text(dataset, key), character_set, "^=");
+  };
+  if (std::string id = text(DCM_PatientID); !id.empty()) return {std::move(id), text(DCM_IssuerOfPatientID)};
+  if (std::string name = text(DCM_PatientName); !name.empty()) return {std::move(name), {}};
+  return {text(DCM_StudyInstanceUID), {}};
 }
 
 void Cleaner::note(const DcmTagKey& key, const std::string& path, Change change) {

@@ -51,7 +51,7 @@ class Cleaner {
   std::vector<ChangedAttribute> changes_;
 };
 
-// The patient's ID, or what else tells whose the dataset is: the name, or the study.
-[[nodiscard]] std::string identity_of(DcmDataset& dataset);
+// The patient's ID with its issuer, or what else tells whose the dataset is: the name, or the study.
+[[nodiscard]] PatientIdentity identity_of(DcmDataset& dataset);
 
 }  // namespace tidemark::imaging

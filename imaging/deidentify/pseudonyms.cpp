@@ -43,7 +43,15 @@ std::string Pseudonyms::uids(std::string_view values) {
   }
 }
 
-Result<Pseudonym> Pseudonyms::patient(const std::string& old) {
+// An ID alone is the first issuer's. Results often lack the issuer that their images have.
+std::string Pseudonyms::known_as(const PatientIdentity& patient) {
+  if (patient.issuer.empty()) return patient.id;
+  const std::string& first = first_issuers_.try_emplace(patient.id, patient.issuer).first->second;
+  return patient.issuer == first ? patient.id : fmt::format("{} ({})", patient.id, patient.issuer);
+}
+
+Result<Pseudonym> Pseudonyms::patient(const PatientIdentity& identity) {
+  const std::string old = known_as(identity);
   if (const auto known = patients_.find(old); known != patients_.end()) return known->second;
   if (!patients_.empty() && (options_.patient_id || options_.patient_name)) {
     return fail(ErrorKind::usage,

@@ -16,6 +16,12 @@ struct Pseudonym {
   int days = 0;  // by which dates are moved
 };
 
+// In UTF-8, so that it is the same in files of different character sets.
+struct PatientIdentity {
+  std::string id;      // or whatever else tells patients apart
+  std::string issuer;  // IssuerOfPatientID (0010,0021); empty where the file has none
+};
+
 class Pseudonyms {
  public:
   explicit Pseudonyms(const DeidentifyOptions& options) : options_(options) {}
@@ -24,18 +30,20 @@ class Pseudonyms {
   // coding schemes, frames of reference of atlases) stay.
   [[nodiscard]] std::string uids(std::string_view values);
 
-  // Of the patient with that ID, or whatever else tells patients apart. Fails (ErrorKind::usage) on a second
-  // patient where the options give an ID or a name.
-  [[nodiscard]] Result<Pseudonym> patient(const std::string& old);
+  // Fails (ErrorKind::usage) on a second patient where the options give an ID or a name.
+  [[nodiscard]] Result<Pseudonym> patient(const PatientIdentity& identity);
 
   // Whoever has these can undo the de-identification.
   [[nodiscard]] const std::map<std::string, std::string>& known_uids() const { return uids_; }
   [[nodiscard]] const std::map<std::string, Pseudonym>& known_patients() const { return patients_; }
 
  private:
+  [[nodiscard]] std::string known_as(const PatientIdentity& patient);
+
   DeidentifyOptions options_;
   std::map<std::string, std::string> uids_;
   std::map<std::string, Pseudonym> patients_;
+  std::map<std::string, std::string> first_issuers_;  // by ID
 };
 
 }  // namespace tidemark::imaging

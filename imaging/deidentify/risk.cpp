@@ -16,6 +16,11 @@ namespace {
 // DICOM PS3.4 B.5, PS3.6 A.
 constexpr std::string_view kSecondaryCaptures = "1.2.840.10008.5.1.4.1.1.7";
 constexpr std::string_view kUltrasound[] = {"1.2.840.10008.5.1.4.1.1.3", "1.2.840.10008.5.1.4.1.1.6"};
+// Visible light: photographs, endoscopy, microscopy, dermoscopy.
+constexpr std::string_view kPhotographs = "1.2.840.10008.5.1.4.1.1.77.1";
+// Of these: the eye from near by, and tissue, whose label an attribute tells.
+constexpr std::string_view kHarmlessPhotographs[] = {"1.2.840.10008.5.1.4.1.1.77.1.5",
+                                                     "1.2.840.10008.5.1.4.1.1.77.1.6"};
 constexpr std::string_view kDocuments[] = {"1.2.840.10008.5.1.4.1.1.88",    // structured reports
                                            "1.2.840.10008.5.1.4.1.1.104",   // PDF, CDA, STL, ...
                                            "1.2.840.10008.5.1.4.1.1.9.4"};  // voice
@@ -23,6 +28,12 @@ constexpr std::string_view kDocuments[] = {"1.2.840.10008.5.1.4.1.1.88",    // s
 // Of the class itself, or a class below it.
 bool is_of(std::string_view uid, std::string_view family) {
   return uid.starts_with(family) && (uid.size() == family.size() || uid[family.size()] == '.');
+}
+
+template <std::size_t count>
+bool is_of_any(std::string_view uid, const std::string_view (&families)[count]) {
+  return std::any_of(std::begin(families), std::end(families),
+                     [&](std::string_view family) { return is_of(uid, family); });
 }
 
 std::string class_name(const std::string& uid) {
@@ -47,7 +58,8 @@ bool has_overlay_in_pixels(DcmDataset& dataset, DcmTagKey& where) {
 }  // namespace
 
 std::string pixel_risk(DcmDataset& dataset) {
-  for (const DcmTagKey& key : {DCM_BurnedInAnnotation, DCM_RecognizableVisualFeatures}) {
+  for (const DcmTagKey& key :
+       {DCM_BurnedInAnnotation, DCM_RecognizableVisualFeatures, DCM_SpecimenLabelInImage}) {
     if (element_text(dataset, key) == "YES") return risk_of(key, "YES");
   }
   const std::string uid = element_text(dataset, DCM_SOPClassUID);
@@ -57,9 +69,10 @@ std::string pixel_risk(DcmDataset& dataset) {
   if (element_text(dataset, DCM_ImageType).find("SCREEN") != std::string::npos) {
     return risk_of(DCM_ImageType, "SCREEN");
   }
-  const bool is_ultrasound = std::any_of(std::begin(kUltrasound), std::end(kUltrasound),
-                                         [&](std::string_view family) { return is_of(uid, family); });
-  if (is_ultrasound && element_text(dataset, DCM_BurnedInAnnotation) != "NO") {
+  const bool denies_text = element_text(dataset, DCM_BurnedInAnnotation) == "NO";
+  const bool denies_face = element_text(dataset, DCM_RecognizableVisualFeatures) == "NO";
+  const bool is_photograph = is_of(uid, kPhotographs) && !is_of_any(uid, kHarmlessPhotographs);
+  if ((is_of_any(uid, kUltrasound) && !denies_text) || (is_photograph && !(denies_text && denies_face))) {
     return risk_of(DCM_SOPClassUID, class_name(uid));
   }
   DcmTagKey overlay;
@@ -72,9 +85,7 @@ std::string document_reason(DcmDataset& dataset) {
   const auto reason = [](const DcmTagKey& key, std::string_view value) {
     return fmt::format("{} is {}: what it says cannot be de-identified", name_of(key), value);
   };
-  for (const std::string_view family : kDocuments) {
-    if (is_of(uid, family)) return reason(DCM_SOPClassUID, class_name(uid));
-  }
+  if (is_of_any(uid, kDocuments)) return reason(DCM_SOPClassUID, class_name(uid));
   for (const DcmTagKey& key : {DCM_EncapsulatedDocument, DCM_ContentSequence}) {
     if (dataset.tagExists(key)) return reason(key, "there");
   }

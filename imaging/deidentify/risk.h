@@ -8,9 +8,9 @@ class DcmDataset;
 namespace tidemark::imaging {
 
 // Why the pixels may show who it is: one line that names the attribute, without the file's name; empty when
-// nothing says so. BurnedInAnnotation (0028,0301) and RecognizableVisualFeatures (0028,0302) are YES,
-// secondary and screen captures, ultrasound that does not deny it, overlays in the pixels' upper bits (DICOM
-// PS3.15 E.3.1, E.3.2).
+// nothing says so. BurnedInAnnotation (0028,0301), RecognizableVisualFeatures (0028,0302) or
+// SpecimenLabelInImage (0048,0010) is YES; secondary and screen captures; ultrasound and photographs that do
+// not deny it; overlays in the pixels' upper bits (DICOM PS3.15 E.3.1, E.3.2).
 [[nodiscard]] std::string pixel_risk(DcmDataset& dataset);
 
 // Why the object is left out, in one line: it is a structured report, an encapsulated document or a recorded

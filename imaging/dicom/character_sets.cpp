@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace tidemark::imaging {
 namespace {
@@ -98,15 +99,26 @@ std::optional<std::string> from_any(const std::string& text, const std::string& 
   return std::string(converted.data(), converted.size());
 }
 
+// Nothing where bytes are no characters of the set, or the set is none.
+std::optional<std::string> from_set(const std::string& text, const std::string& character_set,
+                                    const std::string& delimiters) {
+  if (std::none_of(text.begin(), text.end(), is_foreign)) return text;
+  return is_japanese(character_set) ? from_japanese(text) : from_any(text, character_set, delimiters);
+}
+
 }  // namespace
 
 std::string in_utf8(std::string text, const std::string& character_set, const std::string& delimiters) {
-  if (std::none_of(text.begin(), text.end(), is_foreign)) return text;
-  const auto converted =
-      is_japanese(character_set) ? from_japanese(text) : from_any(text, character_set, delimiters);
-  if (converted) return *converted;
+  if (auto converted = from_set(text, character_set, delimiters)) return std::move(*converted);
   std::replace_if(text.begin(), text.end(), is_foreign, '?');
   return text;
+}
+
+std::string in_utf8_or_latin_1(std::string text, const std::string& character_set,
+                               const std::string& delimiters) {
+  if (auto converted = from_set(text, character_set, delimiters)) return std::move(*converted);
+  std::replace(text.begin(), text.end(), kEscape, '?');
+  return in_utf8(std::move(text), "ISO_IR 100");
 }
 
 std::string tidied(std::string_view text) {

@@ -12,6 +12,11 @@ namespace tidemark::imaging {
 [[nodiscard]] std::string in_utf8(std::string text, const std::string& character_set,
                                   const std::string& delimiters = {});
 
+// Likewise, but where the set is missing or wrong the text counts as Latin-1. That has a letter for each
+// byte, so that different texts stay different.
+[[nodiscard]] std::string in_utf8_or_latin_1(std::string text, const std::string& character_set,
+                                             const std::string& delimiters = {});
+
 // UTF-8 without blanks and padding around it, in one line, of a length that can be shown.
 [[nodiscard]] std::string tidied(std::string_view text);
 

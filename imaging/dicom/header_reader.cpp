@@ -121,12 +121,6 @@ ImageResult<void> require_image(DcmFileFormat& loaded, const SliceHeader& header
   return {};
 }
 
-bool is_lossy_syntax(E_TransferSyntax syntax) {
-  constexpr std::array kLossy{EXS_JPEGProcess1,     EXS_JPEGProcess2_4, EXS_JPEGProcess6_8,
-                              EXS_JPEGProcess10_12, EXS_JPEGLSLossy,    EXS_JPEG2000};
-  return std::find(kLossy.begin(), kLossy.end(), syntax) != kLossy.end();
-}
-
 // The header of a file that cannot be parsed.
 SliceHeader header_without_image(const fs::path& file, const Preflight& checked) {
   SliceHeader header;
@@ -154,7 +148,7 @@ ImageResult<SliceHeader> read_whole(DcmFileFormat& loaded, const fs::path& file,
   header.date = iso_date(in.text(DCM_StudyDate));
   header.patient = read_patient(dataset, header.date);
   header.transfer_syntax = syntax.uid;
-  header.is_lossy = is_lossy_syntax(dataset.getOriginalXfer()) || in.text(DCM_LossyImageCompression) == "01";
+  header.is_lossy = syntax.is_lossy || in.text(DCM_LossyImageCompression) == "01";
 
   DcmElement* element = nullptr;
   if (dataset.findAndGetElement(DCM_PixelData, element).bad() || element == nullptr) {

@@ -27,6 +27,7 @@ class ParsedDicom {
 
   // Long values are read from the file when they are asked for.
   [[nodiscard]] DcmDataset& dataset() const;
+  [[nodiscard]] DcmFileFormat& format() const { return *format_; }
   [[nodiscard]] const TransferSyntax& syntax() const { return *opened_.checked.syntax; }
   [[nodiscard]] const Preflight& checked() const { return opened_.checked; }
   [[nodiscard]] ByteSource& bytes() const { return *opened_.bytes; }

@@ -137,9 +137,14 @@ std::string mapped_unit(const SliceHeader& slice) {
   return slice.quantity.mapping ? slice.quantity.mapping->unit : std::string();
 }
 
-// By slope and intercept; empty where nothing says it. CT is in HU unless it says otherwise (PS3.3 C.8.2.1).
+bool has_value_table(const SliceHeader& slice) {
+  return slice.quantity.has_value_table;
+}
+
+// By slope and intercept; empty where nothing says it, or a table leads to the unit. CT is in HU unless it
+// says otherwise (PS3.3 C.8.2.1).
 std::string rescaled_unit(const SliceHeader& slice) {
-  if (slice.modality != "CT") return {};
+  if (slice.modality != "CT" || has_value_table(slice)) return {};
   return slice.quantity.rescale_type.empty() ? "HU" : slice.quantity.rescale_type;
 }
 
@@ -165,6 +170,10 @@ std::optional<std::string> state_quantity(const Slices& slices, Series& series) 
   }
   if (quantity.has_philips_scale && unit.empty()) {
     series.changes.emplace_back("the scanner's own scale, ScaleSlope (2005,100E), is not used");
+  }
+  if (unit.empty() && std::any_of(slices.begin(), slices.end(), has_value_table)) {
+    series.warnings.emplace_back(
+        "the values stay as they are stored: the table in ModalityLUTSequence (0028,3000) is not read");
   }
   if (rescaled == "HU") series.unit = rescaled;
   if (series.modality == "PT") state_activity(slices, series);

@@ -25,6 +25,7 @@ struct QuantityHeader {
   std::string rescale_type;             // (0028,1054)
   std::optional<ValueMapping> mapping;  // of the RealWorldValueMappingSequence (0040,9096), when it is used
   std::string unused_mapping;           // the reason why such a sequence is not used; else empty
+  bool has_value_table = false;         // ModalityLUTSequence (0028,3000), which is not used
   bool has_philips_scale = false;       // (2005,100E), which is not used
 
   // PET (PS3.3 C.8.9.1, C.8.9.2)
@@ -47,7 +48,8 @@ void read_quantity(DcmItem& dataset, SliceHeader& header);
 // stays. It is used when it is the only one, linear, of all stored values of an MR image, to a unit of UCUM.
 void read_mapping(DcmItem& item, SliceHeader& header);
 
-// Puts slope and intercept of the mapping in place of the image's own.
+// Puts slope and intercept of the mapping in place of the image's own, and converts the window to its unit.
+// To be called once.
 void apply_mapping(SliceHeader& header);
 
 // Sets the series' unit and the factor of its values: activity becomes SUVbw where the images hold all that

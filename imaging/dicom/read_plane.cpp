@@ -40,6 +40,7 @@ void read_thickness(const AttributeReader& in, SliceHeader& header) {
 void read_rescale(AttributeReader& in, SliceHeader& header) {
   if (const auto slope = in.decimals(DCM_RescaleSlope, 1)) header.slope = slope->front();
   if (const auto intercept = in.decimals(DCM_RescaleIntercept, 1)) header.intercept = intercept->front();
+  if (in.first_item(DCM_ModalityLUTSequence) != nullptr) header.quantity.has_value_table = true;
   if (header.slope == 0.0) in.report(fmt::format("{} is 0", name_of(DCM_RescaleSlope)));
   if (std::string type = in.name(DCM_RescaleType); !type.empty()) {
     header.quantity.rescale_type = std::move(type);

@@ -16,7 +16,7 @@ void read_pixel_spacing(AttributeReader& in, SliceHeader& header);
 void read_detector_spacing(const AttributeReader& in, SliceHeader& header);
 void read_thickness(const AttributeReader& in, SliceHeader& header);
 
-// Modality LUT (PS3.3 C.11.1): slope, intercept and the unit that they lead to.
+// Modality LUT (PS3.3 C.11.1): slope, intercept and the unit that they lead to, and whether there is a table.
 void read_rescale(AttributeReader& in, SliceHeader& header);
 
 // VOI LUT (PS3.3 C.11.2). A window that makes no sense counts as none.

@@ -153,6 +153,17 @@ std::string take_mapping(DcmItem& item, SliceHeader& header) {
   return {};
 }
 
+// A file's window is one of values by its own slope and intercept (PS3.3 C.11.2.1.2). Nothing where no number
+// can hold the mapped one.
+std::optional<WindowLevel> mapped_window(const WindowLevel& window, const SliceHeader& header,
+                                         const ValueMapping& mapping) {
+  const double factor = mapping.slope / header.slope;
+  const WindowLevel mapped{(window.centre - header.intercept) * factor + mapping.intercept,
+                           window.width * std::abs(factor)};
+  const bool makes_sense = std::isfinite(mapped.centre) && std::isfinite(mapped.width) && mapped.width > 0.0;
+  return makes_sense ? std::optional(mapped) : std::nullopt;
+}
+
 }  // namespace
 
 void read_mapping(DcmItem& item, SliceHeader& header) {
@@ -168,8 +179,10 @@ void read_mapping(DcmItem& item, SliceHeader& header) {
 
 void apply_mapping(SliceHeader& header) {
   if (!header.quantity.mapping) return;
-  header.slope = header.quantity.mapping->slope;
-  header.intercept = header.quantity.mapping->intercept;
+  const ValueMapping& mapping = *header.quantity.mapping;
+  if (header.window) header.window = mapped_window(*header.window, header, mapping);
+  header.slope = mapping.slope;
+  header.intercept = mapping.intercept;
 }
 
 void read_quantity(DcmItem& dataset, SliceHeader& header) {

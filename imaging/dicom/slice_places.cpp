@@ -19,7 +19,7 @@ double tolerance(double distance) {
 std::optional<std::size_t> first_beside(const SlicePlaces& places, glm::dvec2 slope) {
   for (std::size_t k = 0; k < places.last(); ++k) {
     const glm::dvec2 step = places.sideways[k + 1] - places.sideways[k];
-    if (glm::length(step - slope * places.step(k)) > tolerance(places.step(k))) return k;
+    if (!is_straight(glm::length(step - slope * places.step(k)), places.step(k))) return k;
   }
   return std::nullopt;
 }
@@ -77,6 +77,10 @@ bool is_distance(double distance, double wanted) {
   return std::abs(distance - wanted) <= tolerance(wanted);
 }
 
+bool is_straight(double sideways, double length) {
+  return sideways <= tolerance(length);
+}
+
 SlicePlaces places_of(const std::vector<glm::dvec3>& positions_mm, const glm::dmat3& axes) {
   SlicePlaces places;
   for (const glm::dvec3& position : positions_mm) {
@@ -91,9 +95,7 @@ SliceTilt tilt_of(const SlicePlaces& places) {
   const glm::dvec2 sideways = places.sideways.back();
   const double whole = places.along.back();
   // Small steps to the same side add up.
-  const bool is_straight =
-      !first_beside(places, glm::dvec2(0.0)) && glm::length(sideways) <= tolerance(whole);
-  if (is_straight) return {};
+  if (!first_beside(places, glm::dvec2(0.0)) && is_straight(glm::length(sideways), whole)) return {};
   const glm::dvec2 slope = sideways / whole;
   return {std::atan(glm::length(slope)) * 180.0 / std::numbers::pi, first_beside(places, slope)};
 }

@@ -1,5 +1,5 @@
 // The places of the slices of a stack: how far along their normal, how far to its side, and on which even
-// scale. Private to this folder.
+// scale. Private to imaging.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +14,9 @@ namespace tidemark::imaging {
 
 // Whether a distance (mm) is the wanted one but for rounding in files.
 [[nodiscard]] bool is_distance(double distance, double wanted);
+
+// Whether slices that move sideways so far over a length (both mm) lie above each other but for rounding.
+[[nodiscard]] bool is_straight(double sideways, double length);
 
 // In mm from the first slice; ascending along the normal. At least two slices.
 struct SlicePlaces {

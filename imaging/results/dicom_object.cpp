@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "imaging/dicom/character_sets.h"
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/read_patient.h"
 #include "imaging/dicom/write_dicom_file.h"
@@ -12,17 +13,51 @@ namespace tidemark::imaging {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* kUtf8 = "ISO_IR 192";
+
+// Text that is too long to be read by anyone stays as it is.
+void convert_element(DcmElement& element, const std::string& character_set) {
+  const DcmVR vr(element.ident());
+  char* bytes = nullptr;
+  Uint32 length = 0;
+  if (!vr.isAffectedBySpecificCharacterSet() || element.getLength() > kLongestText ||
+      element.getString(bytes, length).bad() || bytes == nullptr) {
+    return;
+  }
+  const std::string before(bytes, length);
+  const std::string after = in_utf8_or_latin_1(before, character_set, vr.getDelimiterChars().c_str());
+  if (after != before) element.putString(after.data(), static_cast<Uint32>(after.size()));
+}
+
+// All text of an item and of the items below it, which have its character set unless they name their own.
+// DCMTK's convertToUTF8() asks the C library for tables of Japanese that it does not have.
+void convert_text(DcmItem& item, std::string character_set) {
+  const bool has_own = item.tagExists(DCM_SpecificCharacterSet);
+  if (has_own) character_set = element_text(item, DCM_SpecificCharacterSet);
+  for (DcmObject* one = nullptr; (one = item.nextInContainer(one)) != nullptr;) {
+    if (one->ident() != EVR_SQ) {
+      convert_element(static_cast<DcmElement&>(*one), character_set);
+      continue;
+    }
+    auto& sequence = static_cast<DcmSequenceOfItems&>(*one);
+    for (DcmObject* below = nullptr; (below = sequence.nextInContainer(below)) != nullptr;) {
+      convert_text(static_cast<DcmItem&>(*below), character_set);
+    }
+  }
+  if (has_own) item.putAndInsertString(DCM_SpecificCharacterSet, kUtf8);
+}
+
+}  // namespace
+
 Result<ParsedDicom> load_object(const fs::path& file, std::optional<DicomTag> stop_at) {
   TIDEMARK_TRY(set_up_dicom());
   auto parsed = ParsedDicom::open(file, stop_at);
   if (!parsed) return parsed;
-  // Where the character set is missing or wrong the text is taken as Latin-1, which has a letter for each
-  // byte.
   DcmDataset& dataset = parsed->dataset();
-  if (dataset.convertToUTF8().bad()) {
-    dataset.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 100");
-    dataset.convertToUTF8();
-  }
+  convert_text(dataset, {});
+  dataset.putAndInsertString(DCM_SpecificCharacterSet, kUtf8);
   return parsed;
 }
 

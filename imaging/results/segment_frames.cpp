@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/checked.h"
+#include "imaging/dicom/slice_places.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -64,12 +65,22 @@ bool divides(double step, const std::vector<double>& gaps) {
          });
 }
 
+// The way (mm) from its slice's corner to a frame that lies there but for the drift of slices that count as
+// straight when they are loaded. Frames have the places of images, which drift.
+glm::dvec3 drift_of(const SegmentFrame& frame, const Geometry& grid) {
+  const glm::dvec3 voxel = grid.to_voxel(frame.position_mm);
+  const glm::dvec3 drift = frame.position_mm - grid.to_patient({0.0, 0.0, voxel.z});
+  const double length = std::abs(voxel.z) * grid.spacing_mm.z;
+  return is_straight(glm::length(drift), length) ? drift : glm::dvec3(0.0);
+}
+
 }  // namespace
 
 Result<FrameMap> map_frame(const SegmentFrame& frame, const Geometry& grid, const std::string& what) {
-  const auto column_end = frame.position_mm + static_cast<double>(frame.columns - 1) * frame.step_column_mm;
-  const auto row_end = frame.position_mm + static_cast<double>(frame.rows - 1) * frame.step_row_mm;
-  const auto first = whole(grid.to_voxel(frame.position_mm));
+  const glm::dvec3 corner = frame.position_mm - drift_of(frame, grid);
+  const auto column_end = corner + static_cast<double>(frame.columns - 1) * frame.step_column_mm;
+  const auto row_end = corner + static_cast<double>(frame.rows - 1) * frame.step_row_mm;
+  const auto first = whole(grid.to_voxel(corner));
   const auto last_column = whole(grid.to_voxel(column_end));
   const auto last_row = whole(grid.to_voxel(row_end));
   if (first && last_column && last_row) {

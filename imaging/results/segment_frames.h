@@ -29,7 +29,8 @@ struct FrameMap {
 };
 
 // Fails (ErrorKind::input) when the pixels are not voxels of the grid, each at the same place in the patient
-// within a tenth of a voxel; they may lie beyond its border. `what` names the file in the message.
+// within a tenth of a voxel, or as far off as slices may drift (is_straight()); they may lie beyond its
+// border. `what` names the file in the message.
 Result<FrameMap> map_frame(const SegmentFrame& frame, const Geometry& grid, const std::string& what);
 
 // The smallest grid that holds all frames: slices along their normal, `between_mm` apart if that fits, else

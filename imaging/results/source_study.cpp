@@ -6,12 +6,14 @@
 
 #include "imaging/dicom/dicom_values.h"
 #include "imaging/dicom/header_reader.h"
+#include "imaging/dicom/slice_places.h"
 
 namespace tidemark::imaging {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr DicomTag kPixelData{0x7fe0, 0x0010};
 constexpr double kSliceTolerance = 0.1;  // of the distance of slices: positions are rounded in files
 
 // The slice at whose place an image lies.
@@ -52,8 +54,37 @@ SourceStudy anonymous_study(const Geometry& geometry) {
 // them.
 bool is_beside(const SliceHeader& image, std::int64_t k, const Geometry& geometry) {
   if (image.columns != geometry.size.x || image.rows != geometry.size.y) return false;
-  const glm::dvec3 at = geometry.to_voxel(*image.position_mm) - glm::dvec3(0.0, 0.0, static_cast<double>(k));
-  return std::max(std::abs(at.x), std::abs(at.y)) > kSliceTolerance;
+  const glm::dvec3 slice(0.0, 0.0, static_cast<double>(k));
+  const glm::dvec3 at = geometry.to_voxel(*image.position_mm) - slice;
+  if (std::max(std::abs(at.x), std::abs(at.y)) <= kSliceTolerance) return false;
+  // Slices that count as straight when they are loaded may have drifted farther than that.
+  const glm::dvec2 sideways = glm::dvec2(at) * glm::dvec2(geometry.spacing_mm);
+  return !is_straight(glm::length(sideways), slice.z * geometry.spacing_mm.z);
+}
+
+// As the image tells it, else by the compression that its pixels have.
+Result<SourceLoss> loss_of(const SliceHeader& image) {
+  const auto object = load_object(image.file, kPixelData);
+  if (!object) return pass_on(object);
+  SourceLoss loss{element_text(object->dataset(), DCM_LossyImageCompressionRatio),
+                  element_text(object->dataset(), DCM_LossyImageCompressionMethod)};
+  const auto& fragments = object->checked().fragments;
+  const bool is_told = !loss.ratio.empty() || !loss.method.empty();
+  if (is_told || !object->syntax().is_lossy || !fragments || fragments->count == 0) return loss;
+  const auto bits = static_cast<double>(image.frames * image.frame_rows * image.frame_columns) *
+                    static_cast<double>(image.bits_allocated);
+  loss.ratio = fmt::format("{:.2f}", bits / 8.0 / static_cast<double>(fragments->end - fragments->begin));
+  switch (object->syntax().frames) {
+    case FrameCoding::jpeg_ls:
+      loss.method = "ISO_14495_1";
+      break;
+    case FrameCoding::jpeg_2000:
+      loss.method = "ISO_15444_1";
+      break;
+    default:
+      loss.method = "ISO_10918_1";
+  }
+  return loss;
 }
 
 // Images that were stripped of their UIDs cannot be referred to.
@@ -63,6 +94,11 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
     const auto slices = read_slice_headers(file);
     if (!slices) return tl::unexpected<Error>(slices.error());
     const SliceHeader& first = slices->front();
+    if (first.is_lossy && !study.loss) {
+      auto loss = loss_of(first);
+      if (!loss) return pass_on(loss);
+      study.loss = std::move(*loss);
+    }
     if (first.sop_class_uid.empty() || first.sop_instance_uid.empty()) continue;
     const std::size_t image = study.images.size();
     study.images.push_back({first.sop_class_uid, first.sop_instance_uid, file});
@@ -97,7 +133,6 @@ Status read_images(SourceFiles files, const Geometry& geometry, SourceStudy& stu
 Result<SourceStudy> source_study(SourceFiles files, const Geometry& geometry) {
   SourceStudy study = anonymous_study(geometry);
   if (!files.empty()) {
-    constexpr DicomTag kPixelData{0x7fe0, 0x0010};
     auto first = load_object(files.front(), kPixelData);
     if (!first) return pass_on(first);
     study.first = first->take();

@@ -24,6 +24,13 @@ struct SourcePlace {
   std::vector<std::uint16_t> frames;
 };
 
+// How an image was compressed with loss (PS3.3 C.7.6.1.1.5), a value for each time; empty where it is not
+// known.
+struct SourceLoss {
+  std::string ratio;   // (0028,2112)
+  std::string method;  // (0028,2114)
+};
+
 struct SourceStudy {
   // The attributes of the source's first file but for pixels: patient, study, frame of reference. Text is
   // UTF-8.
@@ -32,6 +39,7 @@ struct SourceStudy {
   std::string series_uid;  // empty: there is nothing to refer to
   std::string frame_of_reference_uid;
   std::vector<SourceImage> images;                 // each once, in slice order
+  std::optional<SourceLoss> loss;                  // of the first image that has lost by compression
   std::vector<std::optional<SourcePlace>> places;  // for each slice k of the grid, where there is one
 
   [[nodiscard]] DcmDataset& attributes() const { return *first->getDataset(); }

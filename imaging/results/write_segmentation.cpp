@@ -44,6 +44,7 @@ class SegmentationWriter {
   Status add_frame(std::uint16_t number, std::int64_t k, std::vector<std::uint8_t>& slice);
   Status add_frames(const Progress& progress);
   void put_names(DcmDataset& dataset);
+  void put_loss(DcmDataset& dataset);
   void put_pixels(DcmDataset& dataset);
 
   const Segments& segments_;
@@ -202,6 +203,18 @@ void SegmentationWriter::put_names(DcmDataset& dataset) {
   }
 }
 
+// Into the written dataset, because DCMTK takes no loss of unknown ratio or method, which old images may
+// have.
+void SegmentationWriter::put_loss(DcmDataset& dataset) {
+  if (!study_.loss) return;
+  const auto put = [&](const DcmTagKey& key, const std::string& value) {
+    if (!value.empty()) failure_ << dataset.putAndInsertString(DcmTag(key), value.c_str());
+  };
+  put(DCM_LossyImageCompression, "01");
+  put(DCM_LossyImageCompressionRatio, study_.loss->ratio);
+  put(DCM_LossyImageCompressionMethod, study_.loss->method);
+}
+
 // Over what DCMTK 3.6.7 writes, which mixes up bits where frames do not end at whole bytes: all pixels one
 // after another, the first in the lowest bit (PS3.5 8.2).
 void SegmentationWriter::put_pixels(DcmDataset& dataset) {
@@ -236,6 +249,7 @@ Status SegmentationWriter::write(const Progress& progress) {
   auto dataset = std::make_unique<DcmDataset>();
   failure_ << document_->writeDataset(*dataset);
   put_names(*dataset);
+  put_loss(*dataset);
   put_pixels(*dataset);
   TIDEMARK_TRY(failure_.status(file_));
   document_.reset();

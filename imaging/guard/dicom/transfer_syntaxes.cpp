@@ -12,6 +12,9 @@ constexpr TransferSyntax native(std::string_view uid, std::string_view name, boo
 constexpr TransferSyntax compressed(std::string_view uid, std::string_view name, FrameCoding frames) {
   return {uid, name, true, false, false, true, frames};
 }
+constexpr TransferSyntax lossy(std::string_view uid, std::string_view name, FrameCoding frames) {
+  return {uid, name, true, false, false, true, frames, true};
+}
 // For its name in the refusal.
 constexpr TransferSyntax refused(std::string_view uid, std::string_view name) {
   return {uid, name, true, false, false, false, FrameCoding::jpeg};
@@ -23,17 +26,17 @@ constexpr TransferSyntax kSyntaxes[] = {
     native("1.2.840.10008.1.2.1.99", "Deflated Explicit VR Little Endian", true, false, true),
     native(kExplicitBigEndian, "Big Endian Explicit", true, true, false),
     compressed("1.2.840.10008.1.2.5", "RLE Lossless", FrameCoding::rle),
-    compressed("1.2.840.10008.1.2.4.50", "JPEG Baseline", FrameCoding::jpeg),
-    compressed("1.2.840.10008.1.2.4.51", "JPEG Extended, Process 2+4", FrameCoding::jpeg),
-    compressed("1.2.840.10008.1.2.4.53", "JPEG Spectral Selection, Process 6+8", FrameCoding::jpeg),
-    compressed("1.2.840.10008.1.2.4.55", "JPEG Full Progression, Process 10+12", FrameCoding::jpeg),
+    lossy("1.2.840.10008.1.2.4.50", "JPEG Baseline", FrameCoding::jpeg),
+    lossy("1.2.840.10008.1.2.4.51", "JPEG Extended, Process 2+4", FrameCoding::jpeg),
+    lossy("1.2.840.10008.1.2.4.53", "JPEG Spectral Selection, Process 6+8", FrameCoding::jpeg),
+    lossy("1.2.840.10008.1.2.4.55", "JPEG Full Progression, Process 10+12", FrameCoding::jpeg),
     compressed("1.2.840.10008.1.2.4.57", "JPEG Lossless, Non-hierarchical, Process 14", FrameCoding::jpeg),
     compressed("1.2.840.10008.1.2.4.70", "JPEG Lossless, Non-hierarchical, 1st Order Prediction",
                FrameCoding::jpeg),
     compressed("1.2.840.10008.1.2.4.80", "JPEG-LS Lossless", FrameCoding::jpeg_ls),
-    compressed("1.2.840.10008.1.2.4.81", "JPEG-LS Lossy (Near-lossless)", FrameCoding::jpeg_ls),
+    lossy("1.2.840.10008.1.2.4.81", "JPEG-LS Lossy (Near-lossless)", FrameCoding::jpeg_ls),
     compressed("1.2.840.10008.1.2.4.90", "JPEG 2000 (Lossless only)", FrameCoding::jpeg_2000),
-    compressed("1.2.840.10008.1.2.4.91", "JPEG 2000 (Lossless or Lossy)", FrameCoding::jpeg_2000),
+    lossy("1.2.840.10008.1.2.4.91", "JPEG 2000 (Lossless or Lossy)", FrameCoding::jpeg_2000),
     refused("1.2.840.10008.1.2.4.201", "High-Throughput JPEG 2000 (Lossless only)"),
     refused("1.2.840.10008.1.2.4.202", "High-Throughput JPEG 2000 with RPCL Options (Lossless only)"),
     refused("1.2.840.10008.1.2.4.203", "High-Throughput JPEG 2000"),

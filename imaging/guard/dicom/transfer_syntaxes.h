@@ -16,6 +16,7 @@ struct TransferSyntax {
   bool is_deflated = false;
   bool is_read = true;
   FrameCoding frames = FrameCoding::native;
+  bool is_lossy = false;  // pixels may lose by it
 
   [[nodiscard]] bool is_encapsulated() const { return frames != FrameCoding::native; }
 };

@@ -1,4 +1,12 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcxfer.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "core/json/json_field.h"
+#include "imaging/dicom/write_dicom_file.h"
 #include "imaging/pacs/web/web_services.h"
 #include "imaging/web/http_connection.h"
 #include "imaging/web/multipart.h"
@@ -28,6 +36,16 @@ std::int64_t reason_in(const std::string& text, const std::string& peer) {
   return reason != 0 ? reason : kUnknownReason;
 }
 
+// Whether the file begins as others know it: preamble, "DICM" and group 0002 (PS3.10 7.1).
+bool has_header(const ParsedDicom& object) {
+  constexpr std::int64_t kPreamble = 128;
+  constexpr std::string_view kMark = "DICM";
+  std::array<std::uint8_t, kMark.size()> mark{};
+  const bool is_marked = object.bytes().read(kPreamble, mark) == mark.size() &&
+                         std::equal(mark.begin(), mark.end(), kMark.begin());
+  return is_marked && object.checked().dataset > kPreamble + static_cast<std::int64_t>(kMark.size());
+}
+
 class WebSender final : public ObjectSender {
  public:
   explicit WebSender(std::unique_ptr<HttpConnection> connection) : connection_(std::move(connection)) {}
@@ -37,7 +55,15 @@ class WebSender final : public ObjectSender {
     HttpRequest request{"studies", kDicomJson, kLongestAnswer, parts.content_type};
     MemoryBytes before = bytes_of(parts.before);
     MemoryBytes after = bytes_of(parts.after);
-    request.body = {&before, &object.parsed.bytes(), &after};
+    std::string encoded;  // of a file that lacks its header
+    if (!has_header(object.parsed)) {
+      auto whole = encode_dicom_file(object.parsed.format(),
+                                     DcmXfer(object.identity.transfer_syntax.c_str()).getXfer());
+      if (!whole) return fmt::format("it cannot be given a file header: {}", whole.error().message);
+      encoded = std::move(*whole);
+    }
+    MemoryBytes with_header = bytes_of(encoded);
+    request.body = {&before, encoded.empty() ? &object.parsed.bytes() : &with_header, &after};
     std::string text;
     const auto answer = connection_->ask(request, [&](const HttpAnswer&, std::string_view bytes) -> Status {
       text += bytes;

@@ -195,6 +195,36 @@ class DeidentifyTest : public QObject {
     }
   }
 
+  void an_id_is_told_apart_by_its_letters_in_any_character_set() {
+    const char* const latin_1 = "M\xfcller";
+    put(files_[0], DCM_SpecificCharacterSet, "ISO_IR 100");
+    put(files_[0], DCM_PatientID, latin_1);
+    put(files_[1], DCM_SpecificCharacterSet, "ISO_IR 192");
+    put(files_[1], DCM_PatientID, "Müller");
+    put(files_[2], DCM_PatientID, "M\xf6ller");  // of no character set
+    const auto made = make();
+    QCOMPARE(failure(made), QString());
+    QCOMPARE(made->patients.size(), std::size_t{2});
+    QVERIFY(made->patients.contains("Müller") && made->patients.contains("Möller"));
+    fs::remove_all(out());
+    put(files_[2], DCM_PatientID, latin_1);
+    QCOMPARE(failure(make({.patient_id = "CASE-7"})), QString());
+  }
+
+  void an_id_of_two_issuers_is_of_two_patients() {
+    put(files_[0], DCM_IssuerOfPatientID, "Clinic");
+    put(files_[2], DCM_IssuerOfPatientID, "Clínica");
+    put(files_[2], DCM_SpecificCharacterSet, "ISO_IR 192");
+    const auto made = make();
+    QCOMPARE(failure(made), QString());
+    QCOMPARE(made->patients.size(), std::size_t{2});
+    // A file without an issuer, as results often are, is of the patient with its ID.
+    const QString first = Written(out() / made->files[0].name).text(DCM_PatientID);
+    QCOMPARE(Written(out() / made->files[1].name).text(DCM_PatientID), first);
+    QVERIFY(Written(out() / made->files[2].name).text(DCM_PatientID) != first);
+    QVERIFY(made->patients.contains("PHANTOM") && made->patients.contains("PHANTOM (Clínica)"));
+  }
+
   void dates_go_or_move_together() {
     for (const fs::path& file : files_) {
       put(file, DCM_StudyDate, "20240301");
@@ -273,6 +303,7 @@ class DeidentifyTest : public QObject {
     };
     row("BurnedInAnnotation (0028,0301)", 0x00280301U, "YES");
     row("RecognizableVisualFeatures (0028,0302)", 0x00280302U, "YES");
+    row("SpecimenLabelInImage (0048,0010)", 0x00480010U, "YES");
     row("SOPClassUID (0008,0016)", 0x00080016U, UID_MultiframeGrayscaleByteSecondaryCaptureImageStorage);
     row("ConversionType (0008,0064)", 0x00080064U, "WSD");
     row("ImageType (0008,0008)", 0x00080008U, "DERIVED\\SECONDARY\\SCREEN SAVE");
@@ -306,6 +337,32 @@ class DeidentifyTest : public QObject {
     const auto made = make();
     QCOMPARE(failure(made), QString());
     QCOMPARE(made->files.size(), std::size_t{1});
+  }
+
+  void photographs_must_deny_text_and_face_data() {
+    QTest::addColumn<QByteArray>("sop_class");
+    QTest::addColumn<std::size_t>("kept");
+    QTest::newRow("of a part of the body") << QByteArray(UID_VLPhotographicImageStorage) << std::size_t{1};
+    QTest::newRow("endoscopy, moving") << QByteArray(UID_VideoEndoscopicImageStorage) << std::size_t{1};
+    QTest::newRow("any, by a class of old") << QByteArray(UID_RETIRED_VLImageStorage) << std::size_t{1};
+    QTest::newRow("of an eye") << QByteArray(UID_OphthalmicPhotography8BitImageStorage) << std::size_t{3};
+    QTest::newRow("of tissue") << QByteArray(UID_VLWholeSlideMicroscopyImageStorage) << std::size_t{3};
+  }
+
+  void photographs_must_deny_text_and_face() {
+    QFETCH(QByteArray, sop_class);
+    QFETCH(std::size_t, kept);
+    for (const fs::path& file : files_) {
+      put(file, DCM_SOPClassUID, sop_class);
+      set_text(file, 0x0028, 0x0301, "");
+    }
+    put(files_[0], DCM_BurnedInAnnotation, "NO");
+    put(files_[0], DCM_RecognizableVisualFeatures, "NO");
+    put(files_[1], DCM_BurnedInAnnotation, "NO");
+    const auto made = make();
+    QCOMPARE(failure(made), QString());
+    QCOMPARE(made->files.size(), kept);
+    QCOMPARE(made->files[0].source, files_[0]);
   }
 
   void documents_and_other_files_are_left_out() {

@@ -277,6 +277,51 @@ class DicomQuantityTest : public QObject {
     QVERIFY(std::abs(static_cast<double>(volume->value(last)) - (1e-6 * made.stored(last) + 0.25)) < 1e-6);
   }
 
+  void a_mapping_converts_the_window_data() {
+    QTest::addColumn<QByteArray>("slope");
+    QTest::addColumn<QByteArray>("intercept");
+    QTest::addColumn<double>("centre");
+    QTest::addColumn<double>("width");
+    // By the mapping of the stored values that lie in the window 1500 / 3000.
+    const auto row = [](const char* name, const char* slope, const char* intercept, double centre,
+                        double width) {
+      QTest::newRow(name) << QByteArray(slope) << QByteArray(intercept) << 1e-6 * centre + 0.25
+                          << 1e-6 * width;
+    };
+    row("stored values", "1", "0", 1500.0, 3000.0);
+    row("rescaled values", "2", "-7", 753.5, 1500.0);
+    row("values that fall", "-2", "0", -750.0, 1500.0);
+  }
+
+  void a_mapping_converts_the_window() {
+    QFETCH(QByteArray, slope);
+    QFETCH(QByteArray, intercept);
+    QFETCH(double, centre);
+    QFETCH(double, width);
+    const auto put_values = [&](DcmItem& values, DcmItem& window) {
+      values.putAndInsertString(DCM_RescaleSlope, slope.constData());
+      values.putAndInsertString(DCM_RescaleIntercept, intercept.constData());
+      window.putAndInsertString(DCM_WindowCenter, "1500");
+      window.putAndInsertString(DCM_WindowWidth, "3000");
+    };
+    const Made classic("MR", {[&](DcmDataset& d) {
+                         put_values(d, d);
+                         put_mapping(d, "mm2/s");
+                       }});
+    const Enhanced enhanced("MR", [&](DcmItem& groups, std::size_t) {
+      put_values(test::group(groups, DCM_PixelValueTransformationSequence),
+                 test::group(groups, DCM_FrameVOILUTSequence));
+      put_mapping(groups, "mm2/s");
+    });
+    for (const imaging::Series& series : {classic.series(), enhanced.series()}) {
+      const auto volume = imaging::load_series(series);
+      QCOMPARE(test::failure(volume), QString());
+      QVERIFY(volume->window);
+      QVERIFY(std::abs(volume->window->centre - centre) < 1e-12);
+      QVERIFY(std::abs(volume->window->width - width) < 1e-12);
+    }
+  }
+
   void a_mapping_that_is_not_sure_is_told_and_not_used_data() {
     QTest::addColumn<QByteArray>("modality");
     QTest::addColumn<Change>("change");
@@ -313,6 +358,31 @@ class DicomQuantityTest : public QObject {
     const auto volume = imaging::load_series(series);
     QCOMPARE(test::failure(volume), QString());
     QCOMPARE(static_cast<double>(volume->value(std::int64_t{7})), made.stored(7));
+  }
+
+  void values_by_a_table_are_told_and_stay_as_stored_data() {
+    QTest::addColumn<QByteArray>("modality");
+    for (const char* modality : {"CT", "MR"}) QTest::newRow(modality) << QByteArray(modality);
+  }
+
+  void values_by_a_table_are_told_and_stay_as_stored() {
+    QFETCH(QByteArray, modality);
+    const Change put_table = [](DcmDataset& d) {
+      for (const DcmTagKey& key : {DCM_RescaleSlope, DCM_RescaleIntercept, DCM_RescaleType})
+        d.findAndDeleteElement(key);
+      DcmItem* table = nullptr;
+      d.findOrCreateSequenceItem(DCM_ModalityLUTSequence, table);
+      table->putAndInsertString(DCM_ModalityLUTType, "HU");
+    };
+    const Made made(modality.constData(), {put_table});
+    const imaging::Series series = made.series();
+    QVERIFY2(series.loadable, series.reason.c_str());
+    QCOMPARE(series.unit, std::string());
+    QVERIFY(told(series.warnings, "stay as they are stored: the table in ModalityLUTSequence (0028,3000)"));
+    const auto volume = imaging::load_series(series);
+    QCOMPARE(test::failure(volume), QString());
+    QCOMPARE(static_cast<double>(volume->value(std::int64_t{7})), made.stored(7));
+    QVERIFY(!told(Made(modality.constData(), {}).series().warnings, "ModalityLUTSequence"));
   }
 
   void frames_say_in_their_groups_what_their_values_are() {

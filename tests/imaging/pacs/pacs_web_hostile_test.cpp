@@ -2,12 +2,15 @@
 // is left.
 #include <QElapsedTimer>
 #include <QTest>
+#include <QtEndian>
 #include <thread>
 
 #include "core/atomic_file.h"
+#include "imaging/load_study.h"
 #include "imaging/pacs/services.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/pacs/scripted_peer.h"
+#include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test::pacs_web_hostile_test {
@@ -294,6 +297,41 @@ class PacsWebHostileTest : public QObject {
       QVERIFY2(QString::fromStdString(sent->unsent.front().reason).contains(unsent),
                sent->unsent.front().reason.c_str());
     }
+  }
+
+  void a_file_without_a_header_is_sent_with_one_data() {
+    QTest::addColumn<int>("left_out");  // of the preamble, its mark and group 0002
+    QTest::newRow("nothing but a dataset") << 3;
+    QTest::newRow("no preamble") << 2;
+    QTest::newRow("whole") << 0;
+  }
+  void a_file_without_a_header_is_sent_with_one() {
+    QFETCH(int, left_out);
+    const TemporaryFolder folder;
+    const Volume volume = sample_volume({4, 4, 1});
+    const auto file = write_series(volume, folder / "series").front();
+    const QByteArray whole = bytes_of(file);
+    // GroupLength (0002,0000) counts from behind itself.
+    const auto dataset = 144 + qFromLittleEndian<quint32>(whole.constData() + 140);
+    const QByteArray cut = whole.mid(left_out == 3 ? qsizetype{dataset} : left_out == 2 ? 132 : 0);
+    QVERIFY(write_file(file, cut.toStdString()).has_value());
+    std::string body;
+    const ScriptedPeer peer([&](PeerEnd& end) {
+      end.read_request(&body);
+      end.write(answer("200 OK", kJsonType, ""));
+    });
+    const auto sent = imaging::send_files(peer.web_server(), {file});
+    QVERIFY2(sent.has_value(), qPrintable(message(sent)));
+    QCOMPARE(sent->objects, 1);
+
+    const std::size_t begin = body.find("\r\n\r\n") + 4;
+    const std::string object = body.substr(begin, body.rfind("\r\n--") - begin);
+    QCOMPARE(object.substr(128, 4), std::string("DICM"));
+    std::filesystem::create_directory(folder / "arrived");
+    QVERIFY(write_file(folder / "arrived/object.dcm", object).has_value());
+    const auto loaded = imaging::load_volume(folder / "arrived");
+    QCOMPARE(failure(loaded), QString());
+    QVERIFY(loaded->values() == volume.values());
   }
 
   void a_request_to_stop_ends_it_at_once_data() {

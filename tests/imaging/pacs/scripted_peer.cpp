@@ -97,7 +97,7 @@ bool PeerEnd::send_data(int context, const std::string& data, bool is_last) {
   return write(data_pdus(context, false, data, is_last));
 }
 
-std::string PeerEnd::read_request() {
+std::string PeerEnd::read_request(std::string* wanted_body) {
   std::string head;
   std::string byte(1, '\0');
   while (!head.ends_with("\r\n\r\n")) {
@@ -109,6 +109,7 @@ std::string PeerEnd::read_request() {
   if (at != std::string::npos) {
     std::string body(std::stoul(head.substr(at + name.size())), '\0');
     if (!read_exactly(body)) return {};
+    if (wanted_body != nullptr) *wanted_body = std::move(body);
   }
   return head;
 }

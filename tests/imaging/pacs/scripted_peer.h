@@ -27,8 +27,8 @@ class PeerEnd {
   std::string read_command();
   bool send_command(int context, const std::string& command);
   bool send_data(int context, const std::string& data, bool is_last = true);
-  // The head of an HTTP request; its body is read and dropped.
-  std::string read_request();
+  // The head of an HTTP request; its body is dropped where nobody wants it.
+  std::string read_request(std::string* wanted_body = nullptr);
   // Until the other side hangs up, or the test ends.
   void say_nothing();
   [[nodiscard]] bool quits() const { return quit_; }

@@ -3,11 +3,15 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <QJsonArray>
+#include <array>
 #include <glm/geometric.hpp>
 #include <set>
 
 #include "imaging/dicom/dicom.h"
+#include "imaging/dicom/dicom_values.h"
+#include "imaging/dicom/element_text.h"
 #include "imaging/results/segment_frames.h"
+#include "tests/imaging/dicom/recode.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/imaging/results/sample_results.h"
 #include "tests/support/support.h"
@@ -171,6 +175,112 @@ class DicomSegmentationTest : public QObject {
     }
   }
 
+  void the_patients_name_keeps_its_script_data() { test::add_script_rows(); }
+
+  void the_patients_name_keeps_its_script() {
+    QFETCH(QByteArray, character_set);
+    QFETCH(QByteArray, bytes);
+    QFETCH(QByteArray, name);
+    const test::TemporaryFolder folder;
+    const auto series =
+        test::write_sample_series(test::sample_grid({11, 7, 6}, glm::dmat3(1.0)), folder / "series");
+    for (const auto& file : series.files) {
+      test::set_text(file, 0x0008, 0x0005, character_set);
+      test::set_text(file, 0x0010, 0x0010, bytes);
+    }
+    const imaging::Segments segments = test::speckled_segments(series.geometry);
+    for (const auto& write : {&imaging::write_segmentation, &imaging::write_structure_set}) {
+      QCOMPARE(test::failure(write(segments, series.files, folder / "result.dcm", {})), QString());
+      test::edit(folder / "result.dcm", [&](DcmDataset& dataset) {
+        QCOMPARE(imaging::element_text(dataset, DCM_SpecificCharacterSet), std::string("ISO_IR 192"));
+        QCOMPARE(QByteArray::fromStdString(imaging::element_text(dataset, DCM_PatientName)), name);
+      });
+    }
+  }
+
+  void a_segments_name_is_read_in_its_own_script_data() { test::add_script_rows(); }
+
+  void a_segments_name_is_read_in_its_own_script() {
+    QFETCH(QByteArray, character_set);
+    QFETCH(QByteArray, bytes);
+    QFETCH(QByteArray, name);
+    const test::TemporaryFolder folder;
+    const auto file = folder / "seg.dcm";
+    const Geometry grid = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
+    QCOMPARE(test::failure(imaging::write_segmentation(test::speckled_segments(grid), {}, file)), QString());
+    for (const bool has_item_its_own : {false, true}) {
+      test::edit(file, [&](DcmDataset& dataset) {
+        DcmItem* segment = nullptr;
+        QVERIFY(dataset.findAndGetSequenceItem(DCM_SegmentSequence, segment).good());
+        DcmItem& named = has_item_its_own ? *segment : dataset;
+        dataset.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 144");
+        named.putAndInsertString(DCM_SpecificCharacterSet, character_set.constData());
+        segment->putAndInsertString(DCM_SegmentLabel, bytes.constData());
+      });
+      const auto read = imaging::read_segmentation(file, &grid);
+      QCOMPARE(test::failure(read), QString());
+      QCOMPARE(QByteArray::fromStdString(read->list[0].name), name);
+    }
+  }
+
+  void the_loss_of_the_source_is_said_data() {
+    QTest::addColumn<QList<QByteArray>>("of_source");
+    QTest::addColumn<QList<QByteArray>>("of_result");
+    const auto row = [](const char* title, const QList<QByteArray>& of_source,
+                        const QList<QByteArray>& of_result) {
+      QTest::newRow(title) << of_source << of_result;
+    };
+    row("none", {}, {"00", "", ""});
+    row("once", {"01", "12.5", "ISO_10918_1"}, {"01", "12.5", "ISO_10918_1"});
+    row("twice", {"01", "12.5\\3", "ISO_10918_1\\ISO_15444_1"},
+        {"01", "12.5\\3", "ISO_10918_1\\ISO_15444_1"});
+    row("by what is not known", {"01"}, {"01", "", ""});
+  }
+
+  void the_loss_of_the_source_is_said() {
+    QFETCH(QList<QByteArray>, of_source);
+    QFETCH(QList<QByteArray>, of_result);
+    const test::TemporaryFolder folder;
+    const auto series =
+        test::write_sample_series(test::sample_grid({11, 7, 6}, glm::dmat3(1.0)), folder / "series");
+    const std::array elements{0x2110U, 0x2112U, 0x2114U};
+    for (std::size_t n = 0; n < static_cast<std::size_t>(of_source.size()); ++n)
+      test::set_text(series.files[2], 0x0028, elements[n], of_source[static_cast<qsizetype>(n)]);
+    const auto file = folder / "seg.dcm";
+    QCOMPARE(test::failure(
+                 imaging::write_segmentation(test::speckled_segments(series.geometry), series.files, file)),
+             QString());
+    test::edit(file, [&](DcmDataset& dataset) {
+      const std::array keys{DCM_LossyImageCompression, DCM_LossyImageCompressionRatio,
+                            DCM_LossyImageCompressionMethod};
+      for (std::size_t n = 0; n < keys.size(); ++n) {
+        QCOMPARE(QByteArray::fromStdString(imaging::element_text(dataset, keys[n])),
+                 of_result[static_cast<qsizetype>(n)]);
+      }
+    });
+    const QString said = test::validate(file);
+    QVERIFY2(of_source.size() == 1 || !said.contains("Error"), qPrintable(said));
+  }
+
+  void a_loss_that_the_source_does_not_tell_is_that_of_its_pixels() {
+    const test::TemporaryFolder folder;
+    const auto series =
+        test::write_sample_series(test::sample_grid({64, 64, 3}, glm::dmat3(1.0)), folder / "series");
+    for (const auto& path : series.files) QVERIFY(test::recode(path, EXS_JPEG2000, true));
+    const auto file = folder / "seg.dcm";
+    QCOMPARE(test::failure(
+                 imaging::write_segmentation(test::speckled_segments(series.geometry), series.files, file)),
+             QString());
+    test::edit(file, [&](DcmDataset& dataset) {
+      QCOMPARE(imaging::element_text(dataset, DCM_LossyImageCompression), std::string("01"));
+      QCOMPARE(imaging::element_text(dataset, DCM_LossyImageCompressionMethod), std::string("ISO_15444_1"));
+      const double ratio = std::stod(imaging::element_text(dataset, DCM_LossyImageCompressionRatio));
+      const auto pixels = 2.0 * 64.0 * 64.0;  // bytes
+      const auto stored = static_cast<double>(std::filesystem::file_size(series.files.front()));
+      QVERIFY(ratio > pixels / stored && ratio < pixels);
+    });
+  }
+
   void a_segmentation_lies_right_on_a_grid_with_other_axes() {
     const test::TemporaryFolder folder;
     const Geometry written_on = test::sample_grid({11, 7, 6}, glm::dmat3(1.0));
@@ -240,6 +350,48 @@ class DicomSegmentationTest : public QObject {
         }
       }
     }
+  }
+
+  // As they do where an oblique orientation is rounded to three decimals.
+  void results_may_lie_on_slices_that_drift_by_rounding() {
+    const test::TemporaryFolder folder;
+    Geometry grid = test::sample_grid({5, 4, 176}, test::orientations().back().direction);
+    grid.spacing_mm = {0.5, 0.5, 1.0};
+    const auto written = test::write_sample_series(grid, folder / "series");
+    constexpr double kDrift = 6e-4;  // mm a slice
+    test::tilt(written.files, grid, kDrift);
+    const imaging::Series series = test::only_series(folder / "series");
+    QVERIFY2(series.loadable, series.reason.c_str());
+    QVERIFY(same_grid(series.geometry, grid, 1e-6));
+    imaging::Segments segments{series.geometry, {imaging::Segment()}, {}};
+    for (std::int64_t k = 0; k < grid.size.z; ++k)
+      segments.list[0].slices[k] = std::vector<std::uint8_t>(20, 1);
+    const auto file = folder / "seg.dcm";
+    QCOMPARE(test::failure(imaging::write_segmentation(segments, series.files, file)), QString());
+
+    // Another program's frames lie where the images do.
+    test::edit(file, [&](DcmDataset& dataset) {
+      DcmSequenceOfItems* frames = nullptr;
+      QVERIFY(dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, frames).good());
+      for (unsigned long k = 0; k < frames->card(); ++k) {
+        DcmItem* plane = nullptr;
+        QVERIFY(frames->getItem(k)->findAndGetSequenceItem(DCM_PlanePositionSequence, plane).good());
+        const auto step = static_cast<double>(k);
+        const glm::dvec3 p = grid.to_patient({0.0, 0.0, step}) + kDrift * step * grid.direction[1];
+        plane->putAndInsertString(DCM_ImagePositionPatient, imaging::decimals(p.x, p.y, p.z).c_str());
+      }
+    });
+    const auto read = imaging::read_segmentation(file, &series.geometry);
+    QCOMPARE(test::failure(read), QString());
+    QVERIFY(read->list[0].slices == segments.list[0].slices);
+
+    imaging::SegmentFrame frame{1, 5, 4, {}, 0.5 * grid.direction[0], 0.5 * grid.direction[1]};
+    frame.position_mm = grid.to_patient({0.0, 0.3, 175.0});
+    QVERIFY(imaging::map_frame(frame, grid, "seg.dcm"));
+    frame.position_mm = grid.to_patient({0.0, 0.3, 17.0});
+    QVERIFY(!imaging::map_frame(frame, grid, "seg.dcm"));
+    frame.position_mm = grid.to_patient({0.0, 0.4, 175.0});
+    QVERIFY(!imaging::map_frame(frame, grid, "seg.dcm"));
   }
 
   void slices_far_apart_stay_where_they_are() {

@@ -70,6 +70,27 @@ void add_orientation_rows() {
   for (const Orientation& orientation : orientations()) QTest::newRow(orientation.name) << index++;
 }
 
+void add_script_rows() {
+  QTest::addColumn<QByteArray>("character_set");
+  QTest::addColumn<QByteArray>("bytes");
+  QTest::addColumn<QByteArray>("name");
+  const auto row = [](const char* title, const char* character_set, const char* bytes, const char* name) {
+    QTest::newRow(title) << QByteArray(character_set) << QByteArray(bytes) << QByteArray(name);
+  };
+  row("Latin 1", "ISO_IR 100", "Buc^J\xe9r\xf4me", "Buc^Jérôme");
+  row("UTF-8", "ISO_IR 192", "Wang^XiaoDong=王^小東", "Wang^XiaoDong=王^小東");
+  row("Japanese", "\\ISO 2022 IR 87", "Yamada^Tarou=\x1b$B;3ED\x1b(B^\x1b$BB@O:\x1b(B",
+      "Yamada^Tarou=山田^太郎");
+  row("Japanese with katakana", "ISO 2022 IR 13\\ISO 2022 IR 87",
+      "\xd4\xcf\xc0\xde^\xc0\xdb\xb3=\x1b$B;3ED\x1b(J^\x1b$BB@O:\x1b(J", "ﾔﾏﾀﾞ^ﾀﾛｳ=山田^太郎");
+  row("Korean", "\\ISO 2022 IR 149", "Hong^Gildong=\x1b$)C\xfb\xf3^\x1b$)C\xd1\xce\xd4\xd7",
+      "Hong^Gildong=洪^吉洞");
+  row("Japanese that is cut off", "\\ISO 2022 IR 87", "A=\x1b$B;", "A=?$B;");
+  row("no character set", "", "M\xfcller^Eva", "Müller^Eva");
+  row("an unknown character set", "KLINGON", "K\xe9hlar", "Kéhlar");
+  row("the wrong character set", "ISO_IR 192", "M\xfcller^Eva", "Müller^Eva");
+}
+
 imaging::Segments speckled_segments(const Geometry& geometry) {
   imaging::Segments segments{geometry, {}, {}};
   const std::array<imaging::SegmentColour, 3> colours{{{230, 159, 0}, {0, 114, 178}, {1, 2, 3}}};

@@ -40,6 +40,10 @@ imaging::Segments speckled_segments(const Geometry& geometry);
 // number of its segment. Fails the test that runs where there are others than the writer's.
 void renumber_segments(const std::filesystem::path& file, const std::vector<std::uint16_t>& numbers);
 
+// Names of persons as they stand in files, and in UTF-8. The rows of a test: columns "character_set", "bytes"
+// and "name", of byte arrays.
+void add_script_rows();
+
 // A ball around the middle of the grid as mask and as phi, radius in mm; with `hollow_mm`, without its core.
 imaging::Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm = 0.0);
 

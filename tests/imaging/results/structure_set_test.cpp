@@ -74,6 +74,27 @@ class StructureSetTest : public QObject {
     QCOMPARE(regions[1].toObject()["colour"].toArray()[1].toInt(), 114);
   }
 
+  void a_regions_name_is_read_in_its_own_script_data() { test::add_script_rows(); }
+
+  void a_regions_name_is_read_in_its_own_script() {
+    QFETCH(QByteArray, character_set);
+    QFETCH(QByteArray, bytes);
+    QFETCH(QByteArray, name);
+    const test::TemporaryFolder folder;
+    const auto file = folder / "set.dcm";
+    const Geometry grid = test::sample_grid({21, 17, 6}, glm::dmat3(1.0));
+    QCOMPARE(test::failure(imaging::write_structure_set(test::speckled_segments(grid), {}, file)), QString());
+    test::edit(file, [&](DcmDataset& dataset) {
+      DcmItem* region = nullptr;
+      QVERIFY(dataset.findAndGetSequenceItem(DCM_StructureSetROISequence, region).good());
+      dataset.putAndInsertString(DCM_SpecificCharacterSet, character_set.constData());
+      region->putAndInsertString(DCM_ROIName, bytes.constData());
+    });
+    const auto read = imaging::read_structure_set(file, grid);
+    QCOMPARE(test::failure(read), QString());
+    QCOMPARE(QByteArray::fromStdString(read->list[0].name), name);
+  }
+
   void each_region_may_name_a_frame_of_reference() {
     const test::TemporaryFolder folder;
     const auto file = folder / "set.dcm";
