@@ -58,8 +58,8 @@ Capabilities query_capabilities() {
     c.largest_storage_buffer = integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
     c.shared_memory = integer(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE);
   }
-  if (c.at_least(4, 5) || epoxy_has_gl_extension("GL_ARB_robustness") ||
-      epoxy_has_gl_extension("GL_KHR_robustness")) {
+  // Before 4.5 device.cpp asks by a function of this extension.
+  if (c.at_least(4, 5) || epoxy_has_gl_extension("GL_ARB_robustness")) {
     c.reset_reported = integer(GL_RESET_NOTIFICATION_STRATEGY) == GL_LOSE_CONTEXT_ON_RESET;
   }
   return c;

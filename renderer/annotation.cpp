@@ -89,6 +89,8 @@ std::string_view glyph(char letter) {
       return "1434";
     case '=':
       return "0343 0545";
+    case '?':
+      return "01103041422324 2626";
     default:
       return letter >= 'a' && letter <= 'z' ? small_letter(letter) : "";
   }
@@ -175,13 +177,13 @@ double scale_bar_mm(double longest_mm) {
   return power;
 }
 
-void annotate(Picture& picture, glm::dvec3 right, glm::dvec3 up, double mm_per_pixel) {
+void annotate(Picture& picture, glm::dvec3 right, glm::dvec3 up, bool sides_are_known, double mm_per_pixel) {
   const double width = static_cast<double>(picture.width);
   const double height = static_cast<double>(picture.height);
   const double letter = std::clamp(0.03 * std::min(width, height), 9.0, 40.0);
   const double margin = 0.8 * letter;
   const auto put = [&](glm::dvec3 direction, glm::dvec2 place) {
-    const std::string letters = orientation_letters(direction);
+    const std::string letters = sides_are_known ? orientation_letters(direction) : "?";
     const glm::dvec2 box(text_width(letter, letters), letter);
     const glm::dvec2 room = glm::dvec2(width, height) - 2.0 * margin - box;
     write_text(picture, margin + place * room, letter, letters);

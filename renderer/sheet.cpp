@@ -22,12 +22,12 @@ constexpr std::int64_t kGap = 2;  // pixels between the parts
 }  // namespace
 
 Result<Picture> draw_annotated(Renderer& renderer, const SliceView& view, PictureSize size,
-                               const Progress& progress) {
+                               bool sides_are_known, const Progress& progress) {
   auto picture = renderer.draw(view, size, progress);
   if (!picture) return picture;
   const double half =
       slice_half_height_mm(renderer.source().geometry, view.orientation, view.zoom, size.aspect());
-  annotate(*picture, view.orientation.right, view.orientation.up,
+  annotate(*picture, view.orientation.right, view.orientation.up, sides_are_known,
            2.0 * half / static_cast<double>(size.height));
   return picture;
 }
@@ -47,11 +47,12 @@ Result<Picture> draw_still(Renderer& renderer, const VolumeView& view, PictureSi
 }
 
 Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, PictureSize size,
-                               const Progress& progress) {
+                               bool sides_are_known, const Progress& progress) {
   auto picture = draw_still(renderer, view, size, progress);
   if (!picture) return picture;
   const double half = view.camera.half_height_mm(renderer.source().geometry, size.aspect());
-  annotate(*picture, view.camera.right(), view.camera.up(), 2.0 * half / static_cast<double>(size.height));
+  annotate(*picture, view.camera.right(), view.camera.up(), sides_are_known,
+           2.0 * half / static_cast<double>(size.height));
   return picture;
 }
 
@@ -71,9 +72,13 @@ Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSiz
   int pictures = 0;
   std::int64_t column = 0;
   const auto left = [&](std::int64_t at) { return at * (part.width + kGap); };
+  const auto draw = [&](const auto& one, PictureSize its_size) {
+    return draw_annotated(renderer, one, its_size, view.sides_are_known,
+                          progress.part(pictures++, kPictures));
+  };
   for (const SliceOrientation& orientation : {kAxial, kCoronal, kSagittal}) {
     slice.orientation = orientation;
-    const auto picture = draw_annotated(renderer, slice, part, progress.part(pictures++, kPictures));
+    const auto picture = draw(slice, part);
     if (!picture) return picture;
     copy_into(whole, *picture, left(column++), 0);
   }
@@ -82,13 +87,13 @@ Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSiz
     slice.orientation = kAxial;
     slice.content = SliceContent::speed;
     slice.term = view.term;
-    const auto picture = draw_annotated(renderer, slice, part, progress.part(pictures++, kPictures));
+    const auto picture = draw(slice, part);
     if (!picture) return picture;
     copy_into(whole, *picture, 0, part.height + kGap);
     columns_left = 2;
   }
   const PictureSize wide{columns_left * part.width + (columns_left - 1) * kGap, part.height};
-  const auto picture = draw_annotated(renderer, view.volume, wide, progress.part(pictures++, kPictures));
+  const auto picture = draw(view.volume, wide);
   if (!picture) return picture;
   copy_into(whole, *picture, left(3 - columns_left), part.height + kGap);
   return whole;

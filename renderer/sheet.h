@@ -8,7 +8,8 @@ namespace tidemark::renderer {
 struct SheetView {
   glm::dvec3 position_mm{0.0};  // the slices go through it (LPS)
   WindowLevel window;
-  bool speed = false;  // with the speed map: the parameters are those of the study
+  bool sides_are_known = true;  // of the patient: else "?" is written at the edges
+  bool speed = false;           // with the speed map: the parameters are those of the study
   SpeedTerm term = SpeedTerm::data;
   VolumeView volume;
 };
@@ -22,11 +23,11 @@ Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSiz
 Result<Picture> draw_still(Renderer& renderer, const VolumeView& view, PictureSize size,
                            const Progress& progress = {});
 
-// A slice or a still 3D view with letters and scale bar.
+// A slice or a still 3D view with letters and scale bar, as annotate() writes them.
 Result<Picture> draw_annotated(Renderer& renderer, const SliceView& view, PictureSize size,
-                               const Progress& progress = {});
+                               bool sides_are_known, const Progress& progress = {});
 Result<Picture> draw_annotated(Renderer& renderer, const VolumeView& view, PictureSize size,
-                               const Progress& progress = {});
+                               bool sides_are_known, const Progress& progress = {});
 
 // The voxel in the middle of the inside (LPS, mm), and the box around the inside with a voxel more on each
 // side; of the volume when there is no surface.

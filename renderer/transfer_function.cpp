@@ -118,7 +118,7 @@ TransferFunction TransferFunction::for_range(double low, double high) const {
   TransferFunction function = *this;
   if (!relative) return function;
   function.relative = false;
-  const double extent = high - low;
+  const double extent = high > low ? high - low : 1.0;  // nearly all values may be the same
   const auto spread = [&](TransferFactor& factor, double offset) {
     factor.start = offset + factor.start * extent;
     factor.end =

@@ -231,6 +231,7 @@ Result<renderer::Picture> ResultWriter::draw(const RunResults& results) {
   renderer::SheetView view;
   view.position_mm = renderer::middle_of(results.phi);
   view.window = renderer::window_of(*results.source);
+  view.sides_are_known = results.oriented;
   view.speed = true;
   view.volume.camera.azimuth = 30.0;
   view.volume.camera.elevation = 20.0;

@@ -30,7 +30,8 @@ struct RunResults {
   std::shared_ptr<const Volume> source;            // as the solver saw it
   std::vector<std::filesystem::path> dicom_files;  // that it was read from, in slice order; empty: not DICOM
   std::shared_ptr<const imaging::StudyArchive> archive;  // in which they lie, if they do
-  std::shared_ptr<const solver::SpeedFunction> speed;    // at the end; null: the tent
+  bool oriented = true;  // the study's files say how its axes lie in the patient
+  std::shared_ptr<const solver::SpeedFunction> speed;  // at the end; null: the tent
   solver::Field phi;
   RunFigures figures;
   document::Recipe recipe;

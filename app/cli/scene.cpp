@@ -114,7 +114,8 @@ Result<Scene> make_scene(const RenderOptions& options, Views views, Console& con
   if (!chosen) return pass_on(chosen);
   auto loaded = load_study(options.study, console.progress(), otherwise);
   if (!loaded) return pass_on(loaded);
-  Scene scene{std::make_shared<const Volume>(std::move(loaded->volume)), std::move(views), nullptr};
+  Scene scene{std::make_shared<const Volume>(std::move(loaded->volume)), loaded->series.oriented,
+              std::move(views), nullptr};
   auto surface = surface_of(options, *scene.source, console);
   if (!surface) return pass_on(surface);
   const auto phi = std::make_shared<const solver::Field>(std::move(*surface));
@@ -142,15 +143,15 @@ Result<renderer::Picture> draw(Scene& scene, const RenderOptions& options, const
   const Views& views = scene.views;
   const renderer::PictureSize size = views.size;
   if (options.view == "sheet") {
-    const renderer::SheetView sheet{views.slice.position_mm, views.slice.window, has_speed(options),
-                                    views.slice.term, views.volume};
+    const renderer::SheetView sheet{views.slice.position_mm, views.slice.window, scene.oriented,
+                                    has_speed(options),      views.slice.term,   views.volume};
     return renderer::draw_sheet(renderer, sheet, size, progress);
   }
   if (options.view == "3d") {
-    return options.annotate ? renderer::draw_annotated(renderer, views.volume, size, progress)
+    return options.annotate ? renderer::draw_annotated(renderer, views.volume, size, scene.oriented, progress)
                             : renderer::draw_still(renderer, views.volume, size, progress);
   }
-  return options.annotate ? renderer::draw_annotated(renderer, views.slice, size, progress)
+  return options.annotate ? renderer::draw_annotated(renderer, views.slice, size, scene.oriented, progress)
                           : renderer.draw(views.slice, size, progress);
 }
 

@@ -27,6 +27,10 @@ Result<Canvas> Canvas::create(gpu::Device& device, PictureSize size, gpu::TexelF
   if (!framebuffer) return pass_on(framebuffer);
   canvas.framebuffer_ = std::move(*framebuffer);
   canvas.vertices_ = gpu::VertexArray::create(device);
+  // A picture replaces the one before by blending: what is multiplied by 0 must be numbers.
+  canvas.framebuffer_.bind();
+  gpu::begin_exact_drawing();
+  gpu::clear_colours(1);
   return canvas;
 }
 

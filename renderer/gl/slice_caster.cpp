@@ -145,19 +145,16 @@ Status SliceCaster::show_slices(const gpu::Program& slab_program, const Scene& s
     }
   }
   slab_program.use();
+  // Also what this picture does not look at: samplers of two kinds must not be left on one unit.
   int next = units.free;
   const auto show = [&](const char* name, const gpu::Texture2D& texture) {
     slab_program.set(name, next);
     texture.bind(static_cast<unsigned>(next++));
   };
-  if (by_phi) {
-    show("phi_front", phi.texture(slab.front_slice));
-    show("phi_back", phi.texture(slab.back_slice));
-  }
-  if (by_source) {
-    show("source_front", source.texture(slab.front_slice));
-    show("source_back", source.texture(slab.back_slice));
-  }
+  show("phi_front", phi.texture(slab.front_slice));
+  show("phi_back", phi.texture(slab.back_slice));
+  show("source_front", source.texture(slab.front_slice));
+  show("source_back", source.texture(slab.back_slice));
   return {};
 }
 

@@ -13,7 +13,6 @@ namespace tidemark::renderer {
 namespace {
 
 constexpr int kMostLayers = 64;  // of surface, labels and clip plane along a ray
-constexpr float kFar = 96.0F;    // voxels that pieces may span which are shaded together
 
 float least(glm::vec3 v) {
   return std::min({v.x, v.y, v.z});
@@ -44,6 +43,7 @@ RayCaster::RayCaster(HostScene& scene, const VolumeView& view, PictureSize size)
       direction_(glm::normalize(glm::vec3(voxel_from_view_[2]))),
       mm_(glm::length(direction_ * spacing_)),
       step_(static_cast<float>(view.quality.step_voxels)),
+      longest_together_(longest_together(scene.source.size())),
       kinds_(scene, view, step_ * mm_),
       spans_(kinds_, scene.phi.page_shape(), voxel_from_view_, size) {
   const Geometry& geometry = scene.geometry();
@@ -120,7 +120,7 @@ void RayCaster::clip(Ray& ray) const {
     const float slope = glm::dot(normal, direction_);
     const float distance = static_cast<float>(plane_->offset) - glm::dot(normal, ray.start);
     const float meets = distance / (std::abs(slope) > 1e-6F ? slope : 1e-6F);
-    if (std::abs(slope) <= 1e-6F && distance < 0.0F) left.y = left.x;
+    if (std::abs(slope) <= 1e-6F && distance < 0.0F) left.y = left.x - 1.0F;  // nothing
     if (slope < -1e-6F) left.x = std::max(left.x, meets);
     if (slope > 1e-6F) left.y = std::min(left.y, meets);
     if (view_.clip->picture && std::abs(slope) > 1e-6F && meets >= ray.whole.x && meets < ray.whole.y) {
@@ -259,7 +259,7 @@ RayCaster::Piece RayCaster::march_through_source(Ray& ray, float stop) const {
 void RayCaster::march_evenly(Ray& ray, float end, float step, float& first, Pieces& pieces) const {
   const float phi = pieces.phi[static_cast<std::size_t>(pieces.count)];
   while (ray.t < end && !ray.is_opaque()) {
-    const float far_end = (pieces.count > 0 ? pieces.to[0] : ray.t) + kFar;
+    const float far_end = (pieces.count > 0 ? pieces.to[0] : ray.t) + longest_together_;
     const int room = Pieces::kMost - pieces.count;
     const int whole = std::min(room, static_cast<int>((std::min(end, far_end) - ray.t) / step));
     if (whole <= 1 || first > 0.0F || ray.picks) {
@@ -311,13 +311,13 @@ void RayCaster::add_piece(Ray& ray, float end, float phi, Pieces& pieces) const 
   pieces.to[piece] = end;
   pieces.phi[piece + 1] = phi;
   const int most = ray.picks ? 1 : Pieces::kMost;
-  if (pieces.count == most || end - pieces.to[0] > kFar) shade(ray, pieces);
+  if (pieces.count == most || end - pieces.to[0] > longest_together_) shade(ray, pieces);
 }
 
 // A gap at the end is made longer.
 void RayCaster::leap(Ray& ray, float end, Pieces& pieces) const {
   if (pieces.ends_with_gap()) --pieces.count;
-  if (pieces.count > 0 && end - pieces.to[0] > kFar) shade(ray, pieces);
+  if (pieces.count > 0 && end - pieces.to[0] > longest_together_) shade(ray, pieces);
   ray.t = end;
   add_piece(ray, end, pieces.phi[static_cast<std::size_t>(pieces.count)], pieces);
 }

@@ -133,6 +133,7 @@ class RayCaster {
   glm::vec3 direction_;  // of all rays, in voxels; length 1
   float mm_;             // a unit of t
   float step_;
+  float longest_together_;  // voxels that pieces may span which are shaded together
   PageKinds kinds_;
   RaySpans spans_;
   glm::vec3 inverse_{0.0F};

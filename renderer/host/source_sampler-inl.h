@@ -126,7 +126,7 @@ HWY_INLINE Pair right_of(const Rows<T, 4>& rows) {
 }
 
 // The source around the lanes' places, in stored units. Offsets count from a slice near all of them, so that
-// they fit 32 bits in any volume.
+// they fit 32 bits (longest_together()).
 template <class T>
 class Sampler {
  public:

@@ -1,6 +1,7 @@
 #include "renderer/host/source_samples.h"
 
 #include <glm/common.hpp>
+#include <limits>
 #include <variant>
 
 namespace tidemark::renderer {
@@ -49,6 +50,14 @@ float SourceSamples::between(glm::vec3 position) const {
 
 float SourceSamples::at(glm::ivec3 voxel) const {
   return volume_->value(Index3(glm::clamp(voxel, glm::ivec3(0), size_ - 1)));
+}
+
+float longest_together(glm::ivec3 size) {
+  constexpr std::int64_t kMost = 96;    // more gains nothing
+  constexpr std::int64_t kBeside = 12;  // slices that the last sample, slopes and rounding add
+  const std::int64_t slice = std::int64_t{std::max(size.x, 2)} * size.y;
+  const std::int64_t slices = std::numeric_limits<std::int32_t>::max() / slice;
+  return static_cast<float>(std::clamp(slices - kBeside, std::int64_t{0}, kMost));
 }
 
 }  // namespace tidemark::renderer

@@ -44,4 +44,8 @@ class SourceSamples {
   float intercept_ = 0.0F;
 };
 
+// How long the part of a ray may be, in voxels, whose samples a kernel takes together: offsets within it fit
+// 32 bits in a volume of that size.
+float longest_together(glm::ivec3 size);
+
 }  // namespace tidemark::renderer

@@ -17,7 +17,8 @@ inline constexpr std::uint32_t kGroupsPerRow = 32768;
 
 // The layout of the shaders (std430).
 struct ComputeControl {
-  std::uint32_t active_groups[4];  // dispatch arguments
+  std::uint32_t active_groups[3];  // dispatch arguments
+  std::uint32_t active_ready;
   std::uint32_t active_count;
   std::uint32_t steps_done;
   std::uint32_t starved;

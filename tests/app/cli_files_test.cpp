@@ -1,4 +1,6 @@
 // What is read and written: listings, volumes, surfaces, pictures.
+#include <QDataStream>
+#include <QFile>
 #include <QJsonArray>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +14,27 @@
 
 namespace tidemark::test::cli_files_test {
 
+namespace {
+
+// GIPL is big endian, and has no field for how the axes lie in the patient. Of a volume of int16, 1 mm.
+void write_gipl(const Volume& volume, const std::filesystem::path& to) {
+  QFile file(text(to));
+  if (!file.open(QIODevice::WriteOnly)) qFatal("%s cannot be written", to.c_str());
+  QDataStream out(&file);
+  out.setFloatingPointPrecision(QDataStream::SinglePrecision);
+  const Index3 size = volume.geometry.size;
+  for (const std::int64_t count : {size.x, size.y, size.z, std::int64_t{1}})
+    out << static_cast<quint16>(count);
+  out << quint16{15};  // int16
+  for (int axis = 0; axis < 4; ++axis) out << 1.0F;
+  const QByteArray unused(252 - 26, '\0');
+  out.writeRawData(unused.constData(), static_cast<int>(unused.size()));
+  out << quint32{0xEFFFE9B0};
+  for (const std::int16_t value : std::get<std::vector<std::int16_t>>(volume.voxels)) out << qint16{value};
+}
+
+}  // namespace
+
 class CliFilesTest : public QObject {
   Q_OBJECT
 
@@ -21,6 +44,7 @@ class CliFilesTest : public QObject {
   void formats_keep_values_and_geometry();
   void a_mask_becomes_a_surface();
   void a_runs_picture_shows_its_own_speed();
+  void pictures_claim_no_sides_that_nobody_knows();
   void pictures_are_drawn_from_masks_and_fields_data();
   void pictures_are_drawn_from_masks_and_fields();
 
@@ -107,6 +131,34 @@ void CliFilesTest::a_runs_picture_shows_its_own_speed() {
   const QByteArray of_tent = picture({});
   QVERIFY(of_tent == picture({"--speed", "tent"}));
   QVERIFY(of_tent != picture({"--speed", "tent", "--speed", "edges"}));
+}
+
+// Of one volume in two files, of which one says where the patient's sides are.
+void CliFilesTest::pictures_claim_no_sides_that_nobody_knows() {
+  const TemporaryFolder folder;
+  const Index3 size(32);
+  const Volume volume = ball(size, 10.0);
+  write_gipl(volume, folder / "ball.gipl");
+  QCOMPARE(failure(imaging::write_volume_file(volume, folder / "ball.nrrd")), QString());
+  const auto same = [&](const QStringList& command) {
+    const auto picture = [&](const char* study) {
+      const auto to = folder / "picture.png";
+      must_run(QStringList(command).replaceInStrings("STUDY", text(folder / study)) << text(to));
+      return bytes_of(to);
+    };
+    return picture("ball.gipl") == picture("ball.nrrd");
+  };
+  const QStringList plain{"render", "STUDY", "--size", "96x64", "--view", "axial", "--out"};
+  QVERIFY(same(plain));
+  for (const char* view : {"axial", "3d", "sheet"}) {
+    QVERIFY2(!same({"render", "STUDY", "--size", "96x64", "--preset", "ct-bone", "--annotate", "--view", view,
+                    "--out"}),
+             view);
+  }
+  const QString recipe = text(folder / "recipe.json");
+  QVERIFY(!same(QStringList{"segment", "STUDY", "--steps", "0"} + ball_arguments(size) +
+                QStringList{"--recipe", recipe, "--picture"}));
+  QVERIFY(!same({"replay", recipe, "STUDY", "--picture"}));
 }
 
 void CliFilesTest::pictures_are_drawn_from_masks_and_fields_data() {

@@ -220,6 +220,34 @@ class LabelViewTest : public QObject {
     QVERIFY(off(pixel(draw(view, kSide, kSide), 100, 100), expected) < 4.0);
   }
 
+  void the_clip_plane_hides_what_closes_a_label_on_the_volumes_border() {
+    // A ball that the front face of the volume cuts through its middle.
+    const Geometry geometry = grid({64, 32, 64});
+    const glm::dvec3 front(31.5, -0.5, 31.5);
+    const auto inside =
+        sample(geometry, [&](glm::dvec3 p) { return glm::length(p - front) < kRadius ? 1.0 : 0.0; });
+    Painter draw(empty_scene(geometry));
+    label(draw, {geometry.size, std::vector<std::uint8_t>(inside.begin(), inside.end())});
+    // Along the rays, and aslant.
+    for (const glm::dvec3 across : {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(1.0, 0.2, 0.0)}) {
+      const glm::dvec3 normal = glm::normalize(across);
+      for (const renderer::Mode mode : {renderer::Mode::raycast, renderer::Mode::slices}) {
+        renderer::VolumeView view = label_view(mode);
+        view.clip = renderer::ClipPlane{normal, glm::dot(normal, front)};
+        view.clip->picture = false;
+        const renderer::Picture picture = draw(view, kSide, kSide);
+        std::int64_t hidden = 0;
+        for (std::int64_t y = 0; y < kSide; ++y) {
+          for (std::int64_t x = kSide / 2; x < kSide; ++x) {
+            hidden += off(pixel(picture, x, y), 255.0 * glm::dvec3(view.background)) > 3.0 ? 1 : 0;
+          }
+        }
+        QCOMPARE(hidden, 0);
+        QVERIFY(off(pixel(picture, 80, 100), colour_of(1)) < 3.0);
+      }
+    }
+  }
+
   void nothing_is_drawn_otherwise_without_labels() {
     const Geometry geometry = grid({48, 48, 48});
     Painter draw(ball_scene(geometry, 14.0));

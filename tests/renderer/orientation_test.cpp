@@ -37,6 +37,21 @@ glm::dmat3 turned(glm::dmat3 direction, double degrees, glm::dvec3 axis) {
   return direction;
 }
 
+renderer::Picture annotated(const renderer::SliceOrientation& orientation, bool sides_are_known) {
+  renderer::Picture picture{200, 160, std::vector<std::uint8_t>(200 * 160 * 4, 0)};
+  renderer::annotate(picture, orientation.right, orientation.up, sides_are_known, 0.5);
+  return picture;
+}
+
+std::int64_t white_in(const renderer::Picture& picture, std::int64_t left, std::int64_t top,
+                      std::int64_t right, std::int64_t bottom) {
+  std::int64_t white = 0;
+  for (std::int64_t y = top; y < bottom; ++y) {
+    for (std::int64_t x = left; x < right; ++x) white += pixel(picture, x, y).r > 128 ? 1 : 0;
+  }
+  return white;
+}
+
 }  // namespace
 
 class OrientationTest : public QObject {
@@ -149,28 +164,29 @@ class OrientationTest : public QObject {
   }
 
   void letters_and_bar_are_drawn_at_the_edges() {
-    renderer::Picture picture{200, 160, std::vector<std::uint8_t>(200 * 160 * 4, 0)};
-    renderer::annotate(picture, renderer::kAxial.right, renderer::kAxial.up, 0.5);
+    const renderer::Picture picture = annotated(renderer::kAxial, true);
     // The bar: 20 mm in 40 pixels.
     std::int64_t longest = 0;
     for (std::int64_t y = 140; y < 160; ++y) {
-      std::int64_t white = 0;
-      for (std::int64_t x = 100; x < 200; ++x) white += pixel(picture, x, y).r > 128 ? 1 : 0;
-      longest = std::max(longest, white);
+      longest = std::max(longest, white_in(picture, 100, y, 200, y + 1));
     }
     QVERIFY2(std::abs(longest - 40) <= 1, qPrintable(QString::number(longest)));
-    const auto white_in = [&](std::int64_t left, std::int64_t top, std::int64_t right, std::int64_t bottom) {
-      std::int64_t white = 0;
-      for (std::int64_t y = top; y < bottom; ++y) {
-        for (std::int64_t x = left; x < right; ++x) white += pixel(picture, x, y).r > 128 ? 1 : 0;
-      }
-      return white;
-    };
-    QVERIFY(white_in(0, 70, 25, 90) > 10);
-    QVERIFY(white_in(175, 70, 200, 90) > 5);
-    QVERIFY(white_in(90, 0, 110, 22) > 10);
-    QVERIFY(white_in(90, 138, 110, 160) > 10);
-    QCOMPARE(white_in(40, 30, 160, 120), 0);
+    QVERIFY(white_in(picture, 0, 70, 25, 90) > 10);
+    QVERIFY(white_in(picture, 175, 70, 200, 90) > 5);
+    QVERIFY(white_in(picture, 90, 0, 110, 22) > 10);
+    QVERIFY(white_in(picture, 90, 138, 110, 160) > 10);
+    QCOMPARE(white_in(picture, 40, 30, 160, 120), 0);
+  }
+
+  void sides_that_nobody_knows_are_not_claimed() {
+    const renderer::Picture picture = annotated(renderer::kAxial, false);
+    QVERIFY(picture.pixels != annotated(renderer::kAxial, true).pixels);
+    QCOMPARE(picture.pixels, annotated(renderer::kSagittal, false).pixels);
+    // Something is written at all edges.
+    QVERIFY(white_in(picture, 0, 70, 25, 90) > 5);
+    QVERIFY(white_in(picture, 175, 70, 200, 90) > 5);
+    QVERIFY(white_in(picture, 90, 0, 110, 22) > 5);
+    QVERIFY(white_in(picture, 90, 138, 110, 160) > 5);
   }
 };
 

@@ -78,6 +78,18 @@ class TransferFunctionTest : public QObject {
     QVERIFY(own.for_range(0.0, 1.0) == own);
   }
 
+  // As where air fills nearly all of a volume.
+  void a_range_of_one_value_is_one_unit_long() {
+    const auto function = renderer::TransferFunction::parse(
+        R"({"relative": true, "source": [{"value": {"ramp": [0.2, 0.6]}, "gradient": {"gaussian": [0.5, 0.1]},
+            "opacity": 1, "colour": [1, 1, 1]}]})");
+    QCOMPARE(failure(function), QString());
+    const renderer::TransferFunction own = function->for_range(7.0, 7.0);
+    QVERIFY(own == function->for_range(7.0, 8.0));
+    QCOMPARE(own.source[0].value.at(100.0), 1.0);
+    QCOMPARE(own.source[0].value.at(7.0), 0.0);
+  }
+
   void nothing_in_a_range_is_more_opaque_than_its_bound() {
     const auto function = renderer::TransferFunction::parse(
         R"({"source": [{"value": {"gaussian": [40, 10]}, "opacity": 0.5, "colour": [1, 1, 1]},

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/host/source_samples.h"
 #include "tests/renderer/scenes.h"
 #include "tests/support/test_program.h"
 
@@ -42,6 +43,21 @@ class TransferViewTest : public QObject {
         QVERIFY2(std::abs(seen - expected) <= 0.01 * expected + 0.5,
                  qPrintable(QString("step %1: %2, not %3").arg(step).arg(seen).arg(expected)));
       }
+    }
+  }
+
+  void offsets_of_samples_taken_together_fit_32_bits() {
+    QCOMPARE(renderer::longest_together({512, 512, 900}), 96.0F);
+    QCOMPARE(renderer::longest_together({1, 1, 1}), 96.0F);
+    constexpr double kMost = 2147483647.0;
+    for (const int width : {4000, 5000, 7000, 10000, 13000}) {
+      const double slice = static_cast<double>(width) * width;
+      const double length = static_cast<double>(renderer::longest_together({width, width, 1000}));
+      // What a kernel reads beside the samples: the voxels around the first and behind the last.
+      const double slices = length + 10.0;
+      QVERIFY2(slices * slice <= kMost, qPrintable(QString("%1: %2 voxels").arg(width).arg(length)));
+      // Nor is it shorter than it has to be.
+      QVERIFY2(length == 96.0 || (length + 14.0) * slice > kMost, qPrintable(QString::number(width)));
     }
   }
 

@@ -16,6 +16,21 @@ double pixel_mm(const renderer::VolumeView& view, const Geometry& geometry, std:
   return 2.0 * view.camera.half_height_mm(geometry, 1.0) / static_cast<double>(height);
 }
 
+constexpr glm::dvec3 kOnFace(31.5, -0.5, 31.5);
+
+// A ball of 20 mm that the front face of the volume cuts through its middle, kOnFace.
+Scene half_ball_scene() {
+  const Geometry geometry = grid({64, 32, 64});
+  Scene scene = ball_scene(geometry, 5.0);
+  const double band = scene.phi.band;
+  scene.phi = solver::Field::from_dense(
+      geometry,
+      sample(geometry,
+             [&](glm::dvec3 p) { return std::clamp(20.0 - glm::length(p - kOnFace), -band, band); }),
+      band);
+  return scene;
+}
+
 }  // namespace
 
 class VolumeViewTest : public QObject {
@@ -287,16 +302,9 @@ class VolumeViewTest : public QObject {
   }
 
   void a_surface_is_closed_where_it_meets_the_volumes_border() {
-    // A ball that the front face of the volume cuts through its middle.
-    const Geometry geometry = grid({64, 32, 64});
-    Scene scene = ball_scene(geometry, 5.0);
-    const glm::dvec3 front(31.5, -0.5, 31.5);
+    Scene scene = half_ball_scene();
+    const Geometry& geometry = scene.source->geometry;
     const double band = scene.phi.band;
-    scene.phi = solver::Field::from_dense(
-        geometry,
-        sample(geometry,
-               [&](glm::dvec3 p) { return std::clamp(20.0 - glm::length(p - front), -band, band); }),
-        band);
     Painter draw(scene);
     renderer::VolumeView view;
     view.lighting.specular = 0.0;
@@ -323,6 +331,35 @@ class VolumeViewTest : public QObject {
     for (const renderer::Mode mode : {renderer::Mode::raycast, renderer::Mode::slices}) {
       view.mode = mode;
       QVERIFY(is_surface(pixel(box(view, 64, 64), 32, 32)));
+    }
+  }
+
+  void the_clip_plane_hides_what_closes_a_surface_on_the_volumes_border() {
+    Painter draw(half_ball_scene());
+    renderer::VolumeView view;
+    // Along the rays, and aslant; the face is where rays enter, then where they leave.
+    for (const glm::dvec3 across : {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(1.0, 0.2, 0.0)}) {
+      const glm::dvec3 normal = glm::normalize(across);
+      view.clip = renderer::ClipPlane{normal, glm::dot(normal, kOnFace)};
+      view.clip->picture = false;
+      for (const double azimuth : {0.0, 180.0}) {
+        view.camera.azimuth = azimuth;
+        for (const renderer::Mode mode : {renderer::Mode::raycast, renderer::Mode::slices}) {
+          view.mode = mode;
+          const renderer::Picture picture = draw(view, 128, 128);
+          std::int64_t hidden = 0;
+          std::int64_t left = 0;
+          for (std::int64_t y = 0; y < 128; ++y) {
+            for (std::int64_t x = 0; x < 128; ++x) {
+              if (is_surface(pixel(picture, x, y))) ++((x >= 64) == (azimuth == 0.0) ? hidden : left);
+            }
+          }
+          QVERIFY2(
+              hidden == 0 && left > 500,
+              qPrintable(
+                  QString("%1, %2: %3 hidden, %4 left").arg(across.y).arg(azimuth).arg(hidden).arg(left)));
+        }
+      }
     }
   }
 

@@ -37,7 +37,7 @@ void clip_ray(vec2 whole) {
   float slope = dot(clip_plane.xyz, ray_direction);
   float distance_of = clip_plane.w - dot(clip_plane.xyz, ray_start);
   float meets = distance_of / (abs(slope) > 1e-6 ? slope : 1e-6);
-  if (abs(slope) <= 1e-6 && distance_of < 0.0) left.y = left.x;
+  if (abs(slope) <= 1e-6 && distance_of < 0.0) left.y = left.x - 1.0;  // nothing
   if (slope < -1e-6) left.x = max(left.x, meets);
   if (slope > 1e-6) left.y = min(left.y, meets);
   if (show_clip_picture && abs(slope) > 1e-6 && meets >= whole.x && meets < whole.y) cut = meets;

@@ -67,9 +67,12 @@ void main() {
   bool meets_picture = cut >= begin && cut < end;
   if (meets_picture) end = cut;
   Sample a = sample_at(begin);
+#if defined(SURFACE) || defined(LABELS)
+  // Where the inside or a label meets the volume's border it is closed, unless the clip plane hides that.
+  bool enters = begin < end && begin <= whole.x + 1e-3 && begin >= for_surface.x && begin <= for_surface.y;
+#endif
 #ifdef SURFACE
-  // Where the inside meets the volume's border the surface is closed.
-  if (begin < end && begin <= whole.x + 1e-3 && a.phi.x > 0.0 && for_surface.x <= begin) {
+  if (enters && a.phi.x > 0.0) {
     add_surface(on_ray(begin), face_at(on_ray(begin)) * spacing);
   }
 #endif
@@ -78,7 +81,7 @@ void main() {
   int label_before = label;
   int label_met = 0;
   vec2 label_border = vec2(kNever);  // between these places; the first one of the slab
-  if (begin < end && begin <= whole.x + 1e-3 && label != 0 && for_surface.x <= begin) {
+  if (enters && label != 0) {
     add_label(label, on_ray(begin), face_at(on_ray(begin)) * spacing);
   }
 #endif
@@ -126,7 +129,8 @@ void main() {
   }
 #endif
 #ifdef SURFACE
-  if (begin < end && end >= whole.y - 1e-3 && a.phi.x > 0.0 && for_surface.y >= end) {
+  bool leaves = begin < end && end >= whole.y - 1e-3 && end >= for_surface.x && end <= for_surface.y;
+  if (leaves && a.phi.x > 0.0) {
     add_surface(on_ray(end), face_at(on_ray(end)) * spacing);
   }
 #endif

@@ -124,7 +124,9 @@ void main() {
   float value = source_between(nearest ? vec3(nearest_voxel(p)) : p);
   vec3 grey = vec3(clamp((value - window.x) / window.y + 0.5, 0.0, 1.0));
   float phi = phi_between(p);
+  // Derivatives are defined only where all pixels of a block go.
   float phi_slope_in_view = length(vec2(dFdx(phi), dFdy(phi)));
+  float pixel = length(dFdx(p) * spacing) / min(spacing.x, min(spacing.y, spacing.z));
 
 #if defined(SPEED) || defined(DATA_SPEED)
   vec3 colour = speed_colour(p, phi, grey);
@@ -153,7 +155,6 @@ void main() {
 #endif
   if ((show_surface || show_contours) && abs(phi) < band) {
     // Where the slice grazes the surface phi hardly changes in it; a line must not become a patch.
-    float pixel = length(dFdx(p) * spacing) / min(spacing.x, min(spacing.y, spacing.z));
     float per_pixel = max(phi_slope_in_view, 0.4 * pixel);
     // Nor where phi is the same over a whole area, half-way between two slices of a mask.
     float steep = smoothstep(0.1, 0.4, phi_slope_in_view / pixel);

@@ -316,7 +316,7 @@ void main() {
   t = min(t, for_surface.x);
   end = max(end, for_surface.y);
   label_t = for_surface.x;
-  label_there = label_between(on_ray(label_t));
+  label_there = for_surface.x <= for_surface.y ? label_between(on_ray(label_t)) : 0;
   // Where it meets the volume's border a label is closed.
   label_on_face = label_there != 0 && label_t <= whole.x + 1e-3;
   label_border = whole.x;

@@ -23,5 +23,5 @@ void main() {
   control.speed_so_far = 0u;
   control.quiet_pages = 0u;
   control.active_count = 0u;
-  control.active_groups = uvec4(1u, 1u, 1u, 0u);
+  control.active_groups = uvec3(1u);
 }

@@ -66,7 +66,8 @@ void main() {
   if (control.step_ran == 0u) return;
   int index = int(gl_LocalInvocationIndex);
   if (work_group() == 0u && index == 0 && count_step) ++control.steps_done;
-  if (work_group() >= control.active_count) return;
+  // Pages that others list meanwhile are not for the groups that are left over in the last row.
+  if (work_group() >= control.active_ready) return;
   int page = active_list[work_group()];
   int number = inverse_table[page];
   if (number < 0) return;

@@ -23,7 +23,8 @@ layout(std430, binding = 2) coherent buffer PageStates { PageState page_state[];
 
 // What the processor reads back after a run of steps, and what the dispatches of a run hand on.
 layout(std430, binding = 3) coherent buffer Control {
-  uvec4 active_groups;  // work groups for the active pages: dispatch arguments
+  uvec3 active_groups;  // work groups for the active pages: dispatch arguments
+  uint active_ready;    // entries of the active list when the step began
   uint active_count;    // entries of the active list
   uint steps_done;      // since the run began
   uint starved;         // a page was asked for and none was free

@@ -100,6 +100,7 @@ void main() {
   if (work_group() == 0u && gl_LocalInvocationIndex == 0u) {
     control.step_ran = stopped ? 0u : 1u;
     control.free_tail_ready = control.free_tail;
+    control.active_ready = control.active_count;
   }
   if (stopped || work_group() >= control.active_count) return;
   int page = active_list[work_group()];
