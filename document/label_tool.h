@@ -61,6 +61,8 @@ struct LabelVoxels {
 
   // Of a label, or what is inside of the surface.
   [[nodiscard]] Region region(std::uint8_t label) const;
+  // Shares the pages; without a label where there is none.
+  [[nodiscard]] PagedBytes all() const { return voxels ? *voxels : PagedBytes(geometry.size); }
 };
 
 // What the labels would become, for Labels::finish(). Fails (ErrorKind::usage) where a label is unknown or

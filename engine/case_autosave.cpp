@@ -1,6 +1,7 @@
 #include "engine/case_autosave.h"
 
 #include <QStandardPaths>
+#include <atomic>
 #include <mutex>
 #include <optional>
 
@@ -17,10 +18,12 @@ struct CaseAutosave::Copies {
   std::string id = document::new_copy_id();
   std::optional<document::Autosave> files;
   bool closed = false;
+  std::atomic<std::uint64_t> drops = 0;  // asked for
 
-  Status write(const document::SessionContents& contents) {
+  // `seen`: drops when the copy was asked for. One that is out of date by then is not written.
+  Status write(const document::SessionContents& contents, std::uint64_t seen) {
     const std::lock_guard lock(mutex);
-    if (closed) return {};
+    if (closed || drops != seen) return {};
     if (!files) {
       auto made = document::Autosave::create(folder, id);
       if (!made) return pass_on(made);
@@ -36,10 +39,10 @@ struct CaseAutosave::Copies {
     files.reset();
   }
 
-  void close() {
+  void close(bool keeps) {
     const std::lock_guard lock(mutex);
     closed = true;
-    if (files) files->finish();
+    if (files && !keeps) files->finish();
     files.reset();
   }
 };
@@ -50,39 +53,46 @@ CaseAutosave::CaseAutosave(CaseProxy& proxy, std::filesystem::path folder,
   copies_->folder = std::move(folder);
   connect(&proxy_, &CaseProxy::state_changed, this, &CaseAutosave::follow);
   connect(&timer_, &QTimer::timeout, this, &CaseAutosave::save_now);
+  // The last copy is all that is left of the work: it is offered at the next start.
+  connect(&proxy_, &CaseProxy::given_up, this, [this] { keeps_ = true; });
   timer_.start(kSeconds * 1000);
 }
 
 CaseAutosave::~CaseAutosave() {
   if (job_) job_->abandon();
   // Waiting for a copy that is being written could block the user interface.
-  BackgroundJob::start(this, [copies = copies_](BackgroundJob&) { copies->close(); })->abandon();
+  BackgroundJob::start(this, [copies = copies_, keeps = keeps_](BackgroundJob&) {
+    copies->close(keeps);
+  })->abandon();
+}
+
+CaseAutosave::Copied CaseAutosave::present() const {
+  return {proxy_.state().edits, proxy_.state().step, proxy_.attachments()};
 }
 
 void CaseAutosave::follow() {
   if (was_modified_ && !proxy_.state().modified) {
+    last_ = present();
+    ++copies_->drops;
     BackgroundJob::start(this, [copies = copies_](BackgroundJob&) { copies->drop(); })->abandon();
   }
-  // By an image or a truth, which are no edits of the history.
-  if (!was_modified_ && proxy_.state().modified) saved_step_ = -1;
   was_modified_ = proxy_.state().modified;
-  if (soon_ || proxy_.state().edits >= saved_edits_ + kEdits) save_now();
+  if (soon_ || proxy_.state().edits >= last_.edits + kEdits) save_now();
 }
 
 void CaseAutosave::save_now() {
-  const CaseState& state = proxy_.state();
-  const bool is_new = soon_ || state.edits != saved_edits_ || state.step != saved_step_;
-  if (!state.modified || !is_new || writing_ || failed_) return;
+  if (!proxy_.state().modified || writing_ || failed_) return;
+  Copied now = present();
+  if (!soon_ && now == last_) return;
   writing_ = true;
   soon_ = false;
-  saved_edits_ = state.edits;
-  saved_step_ = state.step;
-  const auto write = [self = QPointer(this)](const auto& snapshot) {
+  last_ = std::move(now);
+  const auto write = [self = QPointer(this), seen = copies_->drops.load()](const auto& snapshot) {
     if (!self) return;
     self->job_ = BackgroundJob::start(
         self,
-        [self, copies = self->copies_, snapshot](BackgroundJob& job) {
-          const Status status = copies->write(snapshot->contents);
+        [self, copies = self->copies_, snapshot, seen](BackgroundJob& job) {
+          const Status status = copies->write(snapshot->contents, seen);
           job.deliver([self, status] { self->copied(status); });
         },
         [self](const Error& error) { self->copied(tl::unexpected<Error>(error)); });
@@ -91,7 +101,7 @@ void CaseAutosave::save_now() {
   const auto gave_up = [self = QPointer(this)] {
     if (!self) return;
     self->writing_ = false;
-    self->saved_step_ = -1;
+    self->last_.step = -1;
   };
   proxy_.take_snapshot(view_state_(), write, gave_up);
 }

@@ -26,7 +26,7 @@ class CaseAutosave : public QObject {
 
   // `view_state`: how the case is shown, asked for at each copy.
   CaseAutosave(CaseProxy& proxy, std::filesystem::path folder, std::function<std::string()> view_state);
-  // The case was closed because the user wanted it: nothing is left behind.
+  // The case was closed because the user wanted it: nothing is left behind, unless it could not go on.
   ~CaseAutosave() override;
 
   void save_now();
@@ -41,6 +41,16 @@ class CaseAutosave : public QObject {
 
  private:
   struct Copies;
+  // What differs between two copies.
+  struct Copied {
+    std::uint64_t edits = 0;
+    std::int64_t step = -1;  // there is no copy yet
+    Attachments attachments;
+
+    bool operator==(const Copied&) const = default;
+  };
+
+  [[nodiscard]] Copied present() const;
   void follow();
   void copied(const Status& status);
 
@@ -49,12 +59,12 @@ class CaseAutosave : public QObject {
   std::shared_ptr<Copies> copies_;
   std::shared_ptr<BackgroundJob> job_;
   QTimer timer_;
-  std::uint64_t saved_edits_ = 0;
-  std::int64_t saved_step_ = 0;
+  Copied last_;
   bool soon_ = false;
   bool writing_ = false;
   bool was_modified_ = false;
   bool failed_ = false;
+  bool keeps_ = false;  // the copy, when the case is closed
 };
 
 // Where copies are, for all cases of this user.

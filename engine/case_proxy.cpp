@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <utility>
 
 #include "core/without_exceptions.h"
@@ -30,7 +31,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
       wanted_parameters_(restored.contents ? restored.contents->recipe.final_parameters()
                                            : study_->parameters) {
   state_.parameters = wanted_parameters_;
-  saved_truth_ = own_truth();
+  saved_ = attachments();
   balance_ = std::make_unique<CaseBalance>(*this);
   passes_ = std::make_unique<CasePasses>(*this);
   CaseRunner::Receiver receiver;
@@ -38,6 +39,7 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
   receiver.state_arrived = [this](CaseState state) { take(std::move(state)); };
   receiver.failed = [this](const QString& message) { emit failed(message); };
   receiver.progressed = [this](double fraction, const QString& what) { emit progressed(fraction, what); };
+  receiver.given_up = [this] { emit given_up(); };
   runner_ = std::make_shared<CaseRunner>(engine_, study_, executor, std::move(receiver), std::move(restored));
   post([](CaseRunner& runner, const Progress&) { return runner.open(); });
   connect(&display_, &Display::changed, this, &CaseProxy::use_images_of_display);
@@ -126,10 +128,16 @@ void CaseProxy::take(CaseState state) {
   emit state_changed();
 }
 
-std::vector<std::shared_ptr<const document::CaseImage>> CaseProxy::images() const {
-  std::vector<std::shared_ptr<const document::CaseImage>> images;
-  for (const ShownImage& shown : display_.settings().images) images.push_back(shown.image);
-  return images;
+Attachments CaseProxy::attachments() const {
+  return attachments_of(display_.settings());
+}
+
+Attachments CaseProxy::attachments_of(const DisplaySettings& settings) const {
+  Attachments found;
+  for (const ShownImage& shown : settings.images) found.images.push_back(shown.image);
+  if (has_another_truth()) found.truth = truth_;
+  std::ranges::copy_if(settings.measurements, std::back_inserter(found.measurements), &Measurement::complete);
+  return found;
 }
 
 // An image is read again, so that another one may be the same; an accepted registration moves it.
@@ -137,10 +145,9 @@ bool CaseProxy::modified() const {
   const auto is_same = [](const auto& a, const auto& b) {
     return a->name == b->name && a->checksum == b->checksum && a->to_case == b->to_case;
   };
-  const auto shown = images();
-  return case_modified_ || own_truth() != saved_truth_ ||
-         !std::is_permutation(shown.begin(), shown.end(), saved_images_.begin(), saved_images_.end(),
-                              is_same);
+  const Attachments now = attachments();
+  return case_modified_ || now.truth != saved_.truth || now.measurements != saved_.measurements ||
+         !std::ranges::is_permutation(now.images, saved_.images, is_same);
 }
 
 void CaseProxy::follow_modified() {
@@ -170,9 +177,13 @@ void CaseProxy::play_for(std::int64_t steps, bool until_rest, std::function<void
   });
 }
 
-// The state of the first command arrives before the answer of the second one.
 void CaseProxy::measure(std::function<void()> answer) {
   post([](CaseRunner& runner, const Progress&) { return runner.measure_now(); });
+  after_commands(std::move(answer));
+}
+
+// The state of one command arrives before the next one is carried out.
+void CaseProxy::after_commands(std::function<void()> answer) {
   post([answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner&, const Progress&) -> Status {
     weak_receiver->send(answer);
     return {};
@@ -361,18 +372,18 @@ void CaseProxy::take_snapshot(std::string view_state,
                               std::function<void(std::shared_ptr<const Snapshot>)> answer,
                               std::function<void()> gave_up) {
   using Taken = Result<std::shared_ptr<const Snapshot>>;
-  post([view_state = std::move(view_state), images = images(), truth = own_truth(),
-        answer = std::move(answer), gave_up = std::move(gave_up),
-        askers = askers_](CaseRunner& runner, const Progress&) -> Status {
+  post([view_state = std::move(view_state), attachments = attachments(), answer = std::move(answer),
+        gave_up = std::move(gave_up), askers = askers_](CaseRunner& runner, const Progress&) -> Status {
     const Taken taken = without_exceptions([&]() -> Taken {
       document::Case& document = runner.document();
       document.view_state = view_state;
       TIDEMARK_TRY(document.history().close());
       auto contents = document::snapshot_of(document);
       if (!contents) return pass_on(contents);
-      contents->images = images;
-      contents->truth = truth;
-      return std::make_shared<const Snapshot>(Snapshot{std::move(*contents), document.history().position()});
+      contents->images = attachments.images;
+      contents->truth = attachments.truth;
+      return std::make_shared<const Snapshot>(
+          Snapshot{std::move(*contents), attachments, document.history().position()});
     });
     if (taken) {
       askers->send([answer, snapshot = *taken] { answer(snapshot); });
@@ -384,8 +395,7 @@ void CaseProxy::take_snapshot(std::string view_state,
 }
 
 void CaseProxy::mark_saved(const Snapshot& snapshot) {
-  saved_images_ = snapshot.contents.images;
-  saved_truth_ = snapshot.contents.truth;
+  saved_ = snapshot.attachments;
   post([position = snapshot.position](CaseRunner& runner, const Progress&) -> Status {
     runner.mark_saved(position);
     return {};

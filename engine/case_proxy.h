@@ -40,10 +40,19 @@ class WantedMap;
 class WeakReceiver;
 struct RecordedStep;
 
-// A case as a session file had it. One that was rescued is in no file that the user knows.
+// What a session file holds of a case beside its history.
+struct Attachments {
+  std::vector<std::shared_ptr<const document::CaseImage>> images;
+  std::shared_ptr<const Mask> truth;  // null: the study's own
+  std::vector<Measurement> measurements;
+
+  bool operator==(const Attachments&) const = default;
+};
+
+// A case as a session file had it, or a copy of it. One in no file that the user knows counts as modified.
 struct RestoredCase {
   std::shared_ptr<const document::SessionContents> contents;
-  bool rescued = false;
+  bool in_no_file = false;
 
   // The known answer: its own, else the study's. Null: neither has one.
   [[nodiscard]] const std::shared_ptr<const Mask>& truth(const LoadedStudy& study) const {
@@ -98,6 +107,8 @@ class CaseProxy : public QObject {
   void play_for(std::int64_t steps, bool until_rest, std::function<void(bool reached)> ended);
   // `answer` is called when the figures in state() are those of the present surface.
   void measure(std::function<void()> answer);
+  // `answer` is called when state() is that after all commands so far.
+  void after_commands(std::function<void()> answer);
   void step(std::int64_t steps = 1);
   void step_back(std::int64_t steps = 1);
   void restart();
@@ -147,7 +158,9 @@ class CaseProxy : public QObject {
   void accept_surface(std::uint8_t label, document::Take take = document::Take::free_voxels,
                       const QString& another = {});
   // The labels become those regions. As a tool makes them: see label_finisher().
-  void finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions, document::Take take);
+  // With `from`: fails when the labels are others by the time that the command is carried out.
+  void finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions, document::Take take,
+                     const std::optional<document::LabelVoxels>& from = {});
   // A stroke of the brush: one entry of the history.
   void brush_label(document::LabelRegion stroke, document::Labels::Stroke what, document::Take take);
   [[nodiscard]] LabelFinisher& label_finisher() { return *label_finisher_; }
@@ -174,6 +187,7 @@ class CaseProxy : public QObject {
   // pick()'s does. An open change ends as an entry of the history.
   struct Snapshot {
     document::SessionContents contents;
+    Attachments attachments;
     std::uint64_t position = 0;  // for mark_saved()
   };
   // On a failure failed() says why, and `gave_up` is called instead of the answer.
@@ -181,10 +195,9 @@ class CaseProxy : public QObject {
                      std::function<void()> gave_up = {});
   // A session file holds the snapshot of that position.
   void mark_saved(const Snapshot& snapshot);
-  // It holds these images, which the display gets next.
-  void set_saved_images(const std::vector<std::shared_ptr<const document::CaseImage>>& images) {
-    saved_images_ = images;
-  }
+  [[nodiscard]] Attachments attachments() const;
+  // It holds what the display gets next.
+  void set_saved(const DisplaySettings& settings) { saved_ = attachments_of(settings); }
 
   // For runs of a sweep from the case's start; the answer comes as pick()'s does.
   void prepare_sweep(std::function<void(const Result<document::SweepStart>&)> answer);
@@ -203,6 +216,7 @@ class CaseProxy : public QObject {
  signals:
   void state_changed();
   void failed(const QString& message);
+  void given_up();  // failed() has said why: no command is carried out any more, and nothing can be saved
   // Long work (smoothing, flood fill): fraction in 0..1, 1 when it is over.
   void progressed(double fraction, const QString& what);
 
@@ -215,10 +229,7 @@ class CaseProxy : public QObject {
   void show_distances();
   void show_images_of_drive();
   bool want(document::Drive& drive);
-  [[nodiscard]] std::vector<std::shared_ptr<const document::CaseImage>> images() const;
-  [[nodiscard]] std::shared_ptr<const Mask> own_truth() const {
-    return has_another_truth() ? truth_ : nullptr;
-  }
+  [[nodiscard]] Attachments attachments_of(const DisplaySettings& settings) const;
   [[nodiscard]] bool modified() const;
   void follow_modified();
   void set_playing(bool playing);
@@ -248,8 +259,7 @@ class CaseProxy : public QObject {
   std::uint64_t last_command_ = 0;
   bool case_modified_ = false;
   // In the session file; they are none of the case's history.
-  std::vector<std::shared_ptr<const document::CaseImage>> saved_images_;
-  std::shared_ptr<const Mask> saved_truth_;
+  Attachments saved_;
   std::unique_ptr<CasePasses> passes_;
 };
 

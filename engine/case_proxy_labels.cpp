@@ -49,9 +49,12 @@ void CaseProxy::accept_surface(std::uint8_t label, document::Take take, const QS
 }
 
 void CaseProxy::finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions,
-                              document::Take take) {
-  post([regions = std::move(regions), take](CaseRunner& runner, const Progress&) {
-    return runner.report_acceptance(runner.document().labels().finish(*regions, take));
+                              document::Take take, const std::optional<document::LabelVoxels>& from) {
+  post([regions = std::move(regions), take, from](CaseRunner& runner, const Progress&) -> Status {
+    document::Labels& labels = runner.document().labels();
+    if (from && (from->list != labels.list() || from->all() != labels.voxels()))
+      return fail(ErrorKind::usage, "the labels have changed since the preview: look again");
+    return runner.report_acceptance(labels.finish(*regions, take));
   });
 }
 

@@ -74,7 +74,7 @@ Status CaseRunner::open() {
 
 void CaseRunner::mark_saved(std::uint64_t position) {
   case_->mark_saved(position);
-  restored_.rescued = false;
+  restored_.in_no_file = false;
 }
 
 void CaseRunner::close() {
@@ -122,6 +122,7 @@ void CaseRunner::recover(const Error& error) {
     obstacle_ = Error{back.error().kind,
                       fmt::format("this case cannot go on and should be closed: {}", back.error().message)};
     report_failure(*obstacle_);
+    receiver_.weak_receiver->send(receiver_.given_up);
     return close();
   }
   phi_changed();
@@ -384,8 +385,9 @@ void CaseRunner::publish() {
   state.history = history_.rows(*case_);
   state.history_state = case_->history().last_state();
   state.open_change = case_->history().open_state();
-  state.modified = case_->changed_since_save() || restored_.rescued;
-  state.edits = case_->history().edits();
+  state.modified = case_->changed_since_save() || restored_.in_no_file;
+  // An open change is an edit already: closing it adds as much.
+  state.edits = case_->history().edits() + (state.open_change ? 1 : 0);
   state.commands = carried_out_;
   state.start_text = start_text(recipe.start);
   state.limit = recipe.start.limit();

@@ -28,6 +28,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
     std::function<void(CaseState)> state_arrived;
     std::function<void(QString)> failed;
     std::function<void(double, QString)> progressed;
+    std::function<void()> given_up;  // the case cannot go on
   };
   // An operation on the case. The user sees the error that it returns.
   using Command = std::function<Status(CaseRunner&, const Progress&)>;
@@ -103,6 +104,9 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
 
   // A file holds the case at that position of its history.
   void mark_saved(std::uint64_t position);
+
+  // Whether it waits for the speed function that is to drive it.
+  [[nodiscard]] bool holds_steps() const { return case_speed_.holds_steps(*case_); }
 
   // Brings pictures, figures and state up to date.
   void show();

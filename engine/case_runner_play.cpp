@@ -1,11 +1,18 @@
 // A case that plays: its steps, alone and in lock-step with others.
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "engine/case_runner.h"
 #include "engine/lock_step.h"
 
 namespace tidemark::engine {
+namespace {
+
+// Between two looks whether the others of a group can go on.
+constexpr std::chrono::milliseconds kWaitForOthers(10);
+
+}  // namespace
 
 void CaseRunner::set_playing(bool playing) {
   if (const auto group = group_.lock()) return group->set_playing(playing);
@@ -31,7 +38,7 @@ void CaseRunner::play_alone(bool playing) {
 }
 
 Status CaseRunner::step(std::int64_t steps, const Progress& progress) {
-  if (!case_->level_set().begun() || case_speed_.holds_steps(*case_)) return {};
+  if (!case_->level_set().begun() || holds_steps()) return {};
   if (const auto group = group_.lock()) return group->step(steps, progress);
   // Steps by hand are one entry while nothing else is done.
   if (playing_ || !case_->level_set().in_run()) play_alone(false);
@@ -82,7 +89,7 @@ void CaseRunner::set_pace_alone(double steps_per_second) {
 }
 
 void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
-  if (turn != turn_ || !playing_ || !case_ || case_speed_.holds_steps(*case_)) return;
+  if (turn != turn_ || !playing_ || !case_ || holds_steps()) return;
   Status status = follow_graphics();
   const auto group = group_.lock();
   const std::int64_t before = case_->level_set().step();
@@ -99,7 +106,9 @@ void CaseRunner::run_steps(std::uint64_t turn, std::stop_token stop) {
     set_playing(false);
     report_failure(status.error());
   }
-  if (playing_) {
+  if (playing_ && group && done == 0 && group->any_holds_steps()) {
+    post_steps(Engine::Clock::now() + kWaitForOthers);
+  } else if (playing_) {
     post_steps(schedule_.next_due(done));
   } else {
     end_run();

@@ -16,7 +16,7 @@ Result<Preview> computed(LabelPreview preview, const Progress& progress) {
   if (!regions) return pass_on(regions);
   preview.regions = std::move(*regions);
   auto after = std::make_shared<document::Labels>(from.geometry);
-  const PagedBytes before = from.voxels ? *from.voxels : PagedBytes(from.geometry.size);
+  const PagedBytes before = from.all();
   TIDEMARK_TRY(after->assign(from.list, before));
   const auto accepted = after->finish(preview.regions, preview.take);
   if (!accepted) return pass_on(accepted);
@@ -66,7 +66,7 @@ void LabelFinisher::clear() {
 
 void LabelFinisher::apply() {
   if (!is_current()) return;
-  proxy_.finish_labels({preview_, &preview_->regions}, preview_->take);
+  proxy_.finish_labels({preview_, &preview_->regions}, preview_->take, preview_->from);
   clear();
 }
 

@@ -23,8 +23,10 @@ class LabelFinisher : public JobRunner {
   [[nodiscard]] const std::shared_ptr<const LabelPreview>& preview() const { return preview_; }
   // Whether it is of the labels, and of the surface where that has a part in it, as they are now.
   [[nodiscard]] bool is_current() const { return preview_ && is_of_now(*preview_); }
-  // The same of what begin() was last called for, whatever has come of it.
-  [[nodiscard]] bool asked_is_current() const { return asked_ && is_of_now(*asked_); }
+  // Whether begin() was last called for this use, and for what is now, whatever has come of it.
+  [[nodiscard]] bool asked_is_current(const document::LabelToolUse& use) const {
+    return asked_ && asked_->use == use && is_of_now(*asked_);
+  }
   void cancel() { give_up(); }
   void clear();  // the preview, and what is being computed
 

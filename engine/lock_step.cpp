@@ -84,8 +84,17 @@ void LockStep::set_pace(double steps_per_second) {
   }
 }
 
+bool LockStep::any_holds_steps() {
+  const Members all = members();
+  return std::any_of(all.begin(), all.end(), [](const auto& member) {
+    return member->document().level_set().begun() && member->holds_steps();
+  });
+}
+
+// All wait for one whose speed function is being made: the former one would move it.
 Status LockStep::step(std::int64_t steps, const Progress& progress) {
   set_playing(false);
+  if (any_holds_steps()) return {};
   for (const auto& member : members()) {
     if (!member->document().level_set().begun()) continue;
     TIDEMARK_TRY(member->advance(steps, progress));
@@ -100,7 +109,7 @@ void LockStep::complete_leap() {
   const std::int64_t first = ends_of(moving).second;
   for (const auto& member : moving) {
     const std::int64_t steps = first - step_of(*member);
-    if (steps == 0 || steps > leap_) continue;
+    if (steps == 0 || steps > leap_ || member->holds_steps()) continue;
     if (auto status = member->advance(steps, {}); !status) member->report_failure(status.error());
   }
 }

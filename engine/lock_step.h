@@ -24,7 +24,9 @@ class LockStep : public std::enable_shared_from_this<LockStep> {
   // A command to one is a command to all. Cases that played pause at the same step.
   void set_playing(bool playing);
   void set_pace(double steps_per_second);
-  // Pauses all that have begun, and takes each so many steps further.
+  // Whether a surface waits for the speed function that is to drive it.
+  [[nodiscard]] bool any_holds_steps();
+  // Pauses all that have begun, and takes each so many steps further; none while one of them holds its steps.
   Status step(std::int64_t steps, const Progress& progress);
 
  private:

@@ -110,6 +110,85 @@ class CaseAutosaveTest : public QObject {
     QCOMPARE(edited.failures.size(), 1);
   }
 
+  // Images, a truth and measurements are no edits of the history; each change of them is in the next copy.
+  void what_lies_beside_the_history_is_copied() {
+    const test::TemporaryFolder folder;
+    Edited edited(folder / "recovery");
+    QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
+    const auto copies_after_another_save = [&] {
+      edited.autosave.save_now();
+      edited.wait_until_idle();
+      static_cast<void>(engine::BackgroundJob::finish_all(60s));
+      QCoreApplication::processEvents();
+      return saved.size();
+    };
+    const auto add_image = [&](const char* name) {
+      engine::ShownImage shown;
+      auto image = std::make_shared<document::CaseImage>();
+      image->name = name;
+      image->checksum = name;
+      shown.image = image;
+      edited.proxy.display().change(
+          [&](engine::DisplaySettings& settings) { settings.images.push_back(shown); });
+    };
+    QCOMPARE(copies_after_another_save(), 1);
+    QCOMPARE(copies_after_another_save(), 1);  // nothing is new
+    add_image("first");
+    QCOMPARE(copies_after_another_save(), 2);
+    add_image("second");
+    QCOMPARE(copies_after_another_save(), 3);
+    auto truth = std::make_shared<Mask>();
+    truth->geometry = edited.proxy.volume().geometry;
+    truth->voxels.assign(static_cast<std::size_t>(truth->geometry.voxel_count()), 1);
+    edited.proxy.compare_with(truth);
+    edited.wait_until_idle();
+    QCOMPARE(copies_after_another_save(), 4);
+    const auto measure = [&](engine::Measurement::Kind kind) {
+      edited.proxy.display().change([&](engine::DisplaySettings& settings) {
+        settings.measurements.push_back({kind, {glm::dvec3(1.0), glm::dvec3(2.0)}});
+      });
+    };
+    measure(engine::Measurement::Kind::distance);
+    QCOMPARE(copies_after_another_save(), 5);
+    measure(engine::Measurement::Kind::angle);  // one end is missing
+    QCOMPARE(copies_after_another_save(), 5);
+  }
+
+  // A stroke that is still open, as the last one is, is in the next copy.
+  void a_stroke_that_is_open_is_copied() {
+    const test::TemporaryFolder folder;
+    Edited edited(folder / "recovery");
+    QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
+    for (int copies = 1; copies <= 2; ++copies) {
+      edited.proxy.paint({edited.middle(), 5.0 + copies}, solver::Brush::add,
+                         engine::CaseProxy::new_gesture());
+      edited.wait_until_idle();
+      edited.autosave.save_now();
+      QTRY_COMPARE_WITH_TIMEOUT(saved.size(), copies, kPatience);
+      edited.wait_until_idle();
+    }
+    // Nothing is open after a copy, and nothing new.
+    edited.autosave.save_now();
+    edited.wait_until_idle();
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
+    QCoreApplication::processEvents();
+    QCOMPARE(saved.size(), 2);
+  }
+
+  // A case that cannot go on cannot be saved either: its last copy outlives it.
+  void the_copy_of_a_case_that_gave_up_stays() {
+    const test::TemporaryFolder folder;
+    {
+      Edited edited(folder / "recovery");
+      QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
+      edited.autosave.save_now();
+      QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, kPatience);
+      emit edited.proxy.given_up();
+    }
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
+    QCOMPARE(document::find_recoverable(folder / "recovery").size(), std::size_t{1});
+  }
+
   // It is said once; to try again every half minute would say it again and again.
   void a_folder_that_cannot_be_written_is_told_once() {
     const test::TemporaryFolder folder;

@@ -366,6 +366,41 @@ class CaseProxyTest : public QObject {
     QCOMPARE(fixture.proxy.state().surface.volume_ml, before.surface.volume_ml);
   }
 
+  // A stroke that is under way when the preview is applied is not lost.
+  void a_preview_of_other_labels_is_refused() {
+    Fixture fixture;
+    engine::CaseProxy& proxy = fixture.proxy;
+    fixture.begin(8.0);
+    proxy.accept_surface(0);
+    fixture.wait_until_idle();
+    QCOMPARE(proxy.state().labels.size(), std::size_t{1});
+    const std::uint8_t id = proxy.state().labels.front().id;
+    const auto now = [&] {
+      return document::LabelVoxels{proxy.volume().geometry, proxy.state().labels, proxy.state().label_voxels,
+                                   proxy.state().phi};
+    };
+    const auto one_voxel = [&](const Index3& voxel) {
+      Region region(VoxelRange{voxel, voxel + Index3(1)});
+      region.add(voxel);
+      return document::LabelRegion{id, {}, region};
+    };
+    const auto finish = [&](const document::LabelVoxels& from) {
+      proxy.finish_labels(std::make_shared<const std::vector<document::LabelRegion>>(1, one_voxel({3, 3, 3})),
+                          document::Take::others_too, from);
+    };
+    const document::LabelVoxels before = now();
+    proxy.brush_label(one_voxel({1, 1, 1}), document::Labels::Stroke::adds, document::Take::free_voxels);
+    finish(before);
+    fixture.wait_until_idle();
+    QCOMPARE(fixture.failures.size(), 1);
+    QVERIFY2(fixture.failures.front().contains("since the preview"), qPrintable(fixture.failures.front()));
+    QVERIFY(now().region(id).contains({1, 1, 1}));
+    finish(now());
+    fixture.wait_until_idle();
+    QCOMPARE(fixture.failures.size(), 1);
+    QVERIFY(!now().region(id).contains({1, 1, 1}) && now().region(id).contains({3, 3, 3}));
+  }
+
   void cases_in_lock_step_stand_at_the_same_step() {
     Fixture fixture;
     engine::CaseProxy other(fixture.engine, ball_study(), solver::ExecutorKind::host);

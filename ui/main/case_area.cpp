@@ -1,6 +1,7 @@
 #include "ui/main/case_area.h"
 
 #include <QAction>
+#include <QEvent>
 #include <QMdiSubWindow>
 #include <QMenu>
 #include <QTimer>
@@ -50,6 +51,14 @@ QList<CaseWindow*> CaseArea::cases() const {
     if (auto* window = qobject_cast<CaseWindow*>(child->widget())) cases << window;
   }
   return cases;
+}
+
+CaseWindow* CaseArea::case_of(const QWidget* widget) const {
+  for (CaseWindow* window : cases()) {
+    const QWidget* child = window->parentWidget();
+    if (widget == child || child->isAncestorOf(widget)) return window;
+  }
+  return nullptr;
 }
 
 void CaseArea::follow_cover() {

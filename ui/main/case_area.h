@@ -18,6 +18,8 @@ class CaseArea : public QMdiArea {
   // One alone has all the room, more are laid side by side.
   void show_child(QMdiSubWindow& child);
   [[nodiscard]] QList<CaseWindow*> cases() const;
+  // In whose window the widget lies, or whose title bar it is. Null: in none.
+  [[nodiscard]] CaseWindow* case_of(const QWidget* widget) const;
 
   void tile();
   void cascade();

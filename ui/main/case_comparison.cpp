@@ -18,7 +18,7 @@ void CaseComparison::duplicate(CaseWindow& original, std::function<void(CaseWind
                                                             const std::shared_ptr<const Snapshot>& snapshot) {
     engine::CaseProxy& proxy = original->proxy();
     const std::shared_ptr<const document::SessionContents> contents(snapshot, &snapshot->contents);
-    CaseWindow* copy = window_.add_case(proxy.shared_study(), {contents});
+    CaseWindow* copy = window_.add_case(proxy.shared_study(), {contents, true});
     if (const auto executor = solver::executor_named(proxy.state().executor.toStdString()))
       copy->proxy().change_executor(*executor);
     if (done) done(*copy);

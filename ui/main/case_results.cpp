@@ -116,10 +116,11 @@ void CaseResults::import_labels(CaseWindow& window, const QString& file) {
   read(window, file, false);
 }
 
-void CaseResults::take_dropped(const QStringList& paths) {
-  CaseWindow* active = window_.active_case();
+void CaseResults::take_dropped(const QStringList& paths, CaseWindow* onto) {
+  if (onto) window_.bring_to_front(*onto);
+  CaseWindow* into = onto ? onto : window_.active_case();
   for (const QString& path : paths) {
-    active&& QFileInfo(path).isFile() ? read(*active, path, true) : window_.open(path);
+    into&& QFileInfo(path).isFile() ? read(*into, path, true) : window_.open(path);
   }
 }
 
@@ -140,7 +141,8 @@ void CaseResults::read_next() {
 }
 
 void CaseResults::end_reading(const QString& problem) {
-  if (!problem.isEmpty()) window_.tell(problem, kAboutImport);
+  CaseWindow* of = waiting_.front().window;
+  if (of && !problem.isEmpty()) window_.tell(*of, problem, kAboutImport);
   progress_->hide();
   waiting_.pop_front();
   if (!waiting_.empty()) read_next();
@@ -150,12 +152,12 @@ void CaseResults::add(const std::shared_ptr<const imaging::Segments>& segments) 
   if (CaseWindow* into = waiting_.front().window) {
     into->proxy().import_labels(segments);
     window_.dismiss_about(kAboutImport);
-    window_.panels().show("labels");
+    if (into == window_.active_case()) window_.panels().show("labels");
     const QString name = QFileInfo(waiting_.front().file).fileName();
     window_.statusBar()->showMessage(
         tr("Read %n labels from %1", nullptr, static_cast<int>(segments->list.size())).arg(name), kShownMs);
     const QString changes = engine::message_text(segments->changes);
-    if (!changes.isEmpty()) window_.tell(tr("%1: %2").arg(name, changes));
+    if (!changes.isEmpty()) window_.tell(*into, tr("%1: %2").arg(name, changes));
   }
   end_reading();
 }

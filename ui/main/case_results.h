@@ -22,9 +22,9 @@ class CaseResults : public QObject {
   explicit CaseResults(MainWindow& window);
 
   void import_labels(CaseWindow& window, const QString& file);
-  // DICOM segmentations and structure sets become labels of the active case. The window opens everything
-  // else, and without a case everything.
-  void take_dropped(const QStringList& paths);
+  // DICOM segmentations and structure sets become labels of the case that they were dropped on, which comes
+  // to the front, or else of the active one. The window opens everything else, and without a case everything.
+  void take_dropped(const QStringList& paths, CaseWindow* onto);
 
  private:
   void connect_jobs();

@@ -456,8 +456,9 @@ Status CaseWindow::restore_view(const document::SessionContents& contents) {
   if (const auto& drive = contents.recipe.final_drive(); drive && document::uses_images(drive->setting))
     engine::use_images(settings.images, drive->images);
   auto shown = engine::display_settings(state["display"].toString("{}").toStdString(), settings);
-  proxy_->set_saved_images(contents.images);
-  proxy_->display().set(shown ? *shown : settings);
+  if (shown) settings = *shown;
+  proxy_->set_saved(settings);
+  proxy_->display().set(settings);
   return shown ? Status() : pass_on(shown);
 }
 

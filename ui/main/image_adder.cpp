@@ -74,7 +74,7 @@ ImageAdder::OfCase::OfCase(MainWindow& window, CaseWindow& into)
   connect(opener_, &StudyOpener::opened, this, &OfCase::look_at);
   connect(opener_, &StudyOpener::failed, this, [this](const QString& message) {
     progress_->hide();
-    window_.tell(message, kAboutImages);
+    window_.tell(into_, message, kAboutImages);
   });
 }
 
@@ -84,7 +84,9 @@ ImageAdder::OfCase::~OfCase() {
 }
 
 void ImageAdder::OfCase::look_at(const std::shared_ptr<const engine::LoadedStudy>& loaded) {
-  const auto failed = [this](const Error& error) { window_.tell(engine::message_text(error), kAboutImages); };
+  const auto failed = [this](const Error& error) {
+    window_.tell(into_, engine::message_text(error), kAboutImages);
+  };
   jobs_.push_back(engine::BackgroundJob::start(
       this,
       [this, loaded, grid = into_.proxy().volume().geometry](engine::BackgroundJob& job) {
@@ -97,6 +99,7 @@ void ImageAdder::OfCase::look_at(const std::shared_ptr<const engine::LoadedStudy
 
 void ImageAdder::OfCase::refuse(const engine::LoadedStudy& loaded) {
   window_.tell(
+      into_,
       ImageAdder::tr("%1 lies elsewhere in the patient than the study: its %2 share no place with the "
                      "study's %3.")
           .arg(loaded.name, engine::message_text(imaging::describe(loaded.volume->geometry)),
@@ -113,6 +116,7 @@ void ImageAdder::OfCase::add(const engine::LoadedStudy& loaded, const engine::Sh
   const bool differs =
       !loaded.frame_of_reference_uid.empty() && !proxy.study().frame_of_reference_uid.empty();
   window_.tell(
+      into_,
       differs ? ImageAdder::tr("%1 has another frame of reference than the study: the patient may have moved "
                                "between them. Compare them before you rely on their places.")
                     .arg(loaded.name)

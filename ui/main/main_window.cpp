@@ -56,6 +56,7 @@
 #include "ui/settings.h"
 #include "ui/views/picture_surface.h"
 #include "ui/views/picture_view.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
@@ -205,7 +206,8 @@ void MainWindow::open_phantom(const QString& kind) {
 CaseWindow* MainWindow::add_case(const std::shared_ptr<const engine::LoadedStudy>& study,
                                  const engine::RestoredCase& restored,
                                  std::optional<solver::ExecutorKind> executor) {
-  const bool from_session = restored.contents && !restored.rescued;  // the session file is remembered instead
+  // The session file is remembered instead of its study.
+  const bool from_session = restored.contents && !restored.in_no_file;
   if (!study->origin.path.empty() && !from_session) {
     const RecentStudy recent{QString::fromStdString(study->origin.path.string()),
                              QString::fromStdString(study->origin.series_uid), study->name,
@@ -318,6 +320,11 @@ void MainWindow::tell(const QString& message, const QString& about) {
   messages_->show_text(message, about);
 }
 
+void MainWindow::tell(CaseWindow& of, const QString& message, const QString& about) {
+  tell(message, about);
+  messages_->mark_as_of(of);
+}
+
 void MainWindow::dismiss_about(const QString& about) {
   messages_->dismiss_about(about);
 }
@@ -337,6 +344,14 @@ void MainWindow::bring_to_front(CaseWindow& window) {
 
 QList<CaseWindow*> MainWindow::cases() const {
   return area_->cases();
+}
+
+CaseWindow* MainWindow::case_of_session(const QString& file) const {
+  const QList<CaseWindow*> all = cases();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const CaseWindow* window) {
+    return is_same_file(window->session_file, file);
+  });
+  return found == all.end() ? nullptr : *found;
 }
 
 int MainWindow::free_number() const {
@@ -426,18 +441,23 @@ void MainWindow::connect_help() {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!may_give_up_work(*this) || !cohort_->may_close() || !teaching_->may_close()) return event->ignore();
-  area_->closeAllSubWindows();
-  if (!area_->subWindowList().isEmpty()) {
-    // Where the rest closes once it is saved, closing is tried again after that. A case that the user keeps
-    // open keeps the program open.
-    const QList<CaseWindow*> rest = cases();
-    quitting_ = std::all_of(rest.begin(), rest.end(), [this](const CaseWindow* window) {
-      return session_writer_->closes_later(*window);
-    });
-    return event->ignore();
-  }
+  if (!close_cases()) return event->ignore();
   keep_arrangement();
   event->accept();
+}
+
+// Those without changes close last: a case that the user keeps open keeps what is left open, too. Where cases
+// close once they are saved, closing is tried again after that.
+bool MainWindow::close_cases() {
+  quitting_ = false;
+  QList<CaseWindow*> all = cases();
+  std::stable_partition(all.begin(), all.end(),
+                        [](CaseWindow* window) { return window->proxy().state().modified; });
+  for (CaseWindow* window : all) {
+    if (!window->parentWidget()->close() && !session_writer_->closes_later(*window)) return false;
+  }
+  quitting_ = !cases().isEmpty();
+  return !quitting_;
 }
 
 void MainWindow::keep_arrangement() const {
@@ -466,7 +486,8 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  results_->take_dropped(dropped_paths(*event->mimeData()));
+  const QPoint place = event->position().toPoint();
+  results_->take_dropped(dropped_paths(*event->mimeData()), area_->case_of(childAt(place)));
   event->acceptProposedAction();
 }
 

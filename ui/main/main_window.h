@@ -72,6 +72,8 @@ class MainWindow : public QMainWindow {
 
   [[nodiscard]] CaseWindow* active_case() const;  // null: none
   void bring_to_front(CaseWindow& window);
+  // The open case whose session is in that file; null: none.
+  [[nodiscard]] CaseWindow* case_of_session(const QString& file) const;
   [[nodiscard]] QList<CaseWindow*> cases() const;
   [[nodiscard]] Actions& actions() { return *actions_; }
   [[nodiscard]] PanelDocks& panels() { return *panels_; }
@@ -90,6 +92,8 @@ class MainWindow : public QMainWindow {
   void set_executor(solver::ExecutorKind kind) { executor_ = kind; }
   // Shows a sentence until it is dismissed, the next one comes, or its subject has succeeded.
   void tell(const QString& message, const QString& about = {});
+  // The same about one case, which need not be the active one: it bears the case's mark and goes with it.
+  void tell(CaseWindow& of, const QString& message, const QString& about = {});
   void dismiss_about(const QString& about);
 
  protected:
@@ -116,6 +120,7 @@ class MainWindow : public QMainWindow {
                  const engine::RestoredCase& restored);
   [[nodiscard]] int free_number() const;
   void activate(QMdiSubWindow* window);
+  [[nodiscard]] bool close_cases();  // whether none is left
   void keep_arrangement() const;
   void follow_case();
   void follow_closing();

@@ -64,8 +64,11 @@ void SessionReader::ask_and_open() {
   if (!file.isEmpty()) open(file);
 }
 
+// A file is open once: two cases would write over each other's work.
 void SessionReader::open(const QString& file) {
-  read(file, {});
+  if (CaseWindow* window = window_.case_of_session(file)) return window_.bring_to_front(*window);
+  const auto waits = [&](const Waiting& waiting) { return is_same_file(waiting.file, file); };
+  if (std::none_of(waiting_.begin(), waiting_.end(), waits)) read(file, {});
 }
 
 void SessionReader::read(const QString& file, const std::string& rescued) {
@@ -180,7 +183,8 @@ void SessionReader::restore(const std::shared_ptr<const engine::LoadedStudy>& st
 void SessionReader::keep_rescued(CaseWindow& window, const std::string& copy) {
   const auto remove = [copy] { document::discard(engine::recovery_folder(), copy); };
   connect(&window.autosave(), &engine::CaseAutosave::saved, this, remove, Qt::SingleShotConnection);
-  connect(&window, &QObject::destroyed, this, remove);
+  const auto closed = connect(&window, &QObject::destroyed, this, remove);
+  connect(&window.proxy(), &engine::CaseProxy::given_up, this, [closed] { disconnect(closed); });
   window.autosave().save_soon();
 }
 

@@ -25,8 +25,13 @@ void SessionWriter::save_as(CaseWindow& window) {
   if (!file.isEmpty()) save_to(window, file);
 }
 
+// One file is that of one case: two would write over each other's work.
 QString SessionWriter::ask_for_file(CaseWindow& window) {
-  return files_.ask_for_file(window, tr("Save the session"), session_filter());
+  const QString file = files_.ask_for_file(window, tr("Save the session"), session_filter());
+  const CaseWindow* owner = window_.case_of_session(file);
+  if (!owner || owner == &window) return file;
+  window_.tell(tr("%1 is the session of another open case. Choose another name.").arg(file));
+  return {};
 }
 
 void SessionWriter::save_to(CaseWindow& window, const QString& file, CaseFiles::Ended ended) {
@@ -63,11 +68,23 @@ void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
   const QString file = window.session_file.isEmpty() ? ask_for_file(window) : window.session_file;
   if (file.isEmpty()) return;
   closing_ << &window;
-  save_to(window, file, [this, key = &window, closing = QPointer(&window)](bool written) {
-    closing_.remove(key);
-    if (!written) return emit not_saved();
-    if (closing) closing->close_saved();
+  connect(&window, &QObject::destroyed, this, [this, key = &window] { closing_.remove(key); });
+  window.proxy().pause();
+  save_to(window, file, [this, closing = QPointer(&window)](bool written) {
+    if (!closing) return;
+    if (!written) return keep_open(*closing);
+    closing->proxy().after_commands([this, closing] {
+      if (!closing->proxy().state().modified) return closing->close_saved();
+      window_.tell(
+          tr("%1 was changed while it was being saved, and stays open.").arg(closing->proxy().name()));
+      keep_open(*closing);
+    });
   });
+}
+
+void SessionWriter::keep_open(const CaseWindow& window) {
+  closing_.remove(&window);
+  emit not_saved();
 }
 
 }  // namespace tidemark::ui

@@ -35,6 +35,7 @@ class SessionWriter : public QObject {
  private:
   [[nodiscard]] QString ask_for_file(CaseWindow& window);
   void save_to(CaseWindow& window, const QString& file, CaseFiles::Ended ended = {});
+  void keep_open(const CaseWindow& window);  // one that would have closed
 
   MainWindow& window_;
   CaseFiles& files_;

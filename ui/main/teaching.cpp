@@ -99,16 +99,18 @@ void Teaching::begin(document::Lesson lesson, const std::filesystem::path& file)
 
 // The copy goes once there is another one.
 void Teaching::go_on(const document::RescuedLesson& rescued) {
-  show(rescued.lesson, rescued.file, &rescued.progress);
+  if (!show(rescued.lesson, rescued.file, &rescued.progress)) return;
   const auto remove = [id = rescued.id] { document::discard_lesson(engine::recovery_folder(), id); };
   connect(autosave_.get(), &engine::LessonAutosave::saved, this, remove, Qt::SingleShotConnection);
 }
 
-void Teaching::show(document::Lesson lesson, const std::filesystem::path& file,
+bool Teaching::show(document::Lesson lesson, const std::filesystem::path& file,
                     const document::LessonProgress* progress) {
+  if (!may_end()) return false;
   auto course = std::make_unique<engine::LessonCourse>(std::move(lesson), file.parent_path());
   if (progress) course->go_on_from(*progress);
   show(std::move(course), file);
+  return true;
 }
 
 void Teaching::show(std::unique_ptr<engine::LessonCourse> course, const std::filesystem::path& file) {
@@ -123,13 +125,8 @@ void Teaching::show(std::unique_ptr<engine::LessonCourse> course, const std::fil
   connect(course_.get(), &engine::LessonCourse::changed, this, &Teaching::name_case);
   auto* panel = new LessonPanel(*course_);
   connect(panel, &LessonPanel::end_wanted, this, [this] {
-    const bool wanted = !course_->has_news() ||
-                        QMessageBox::question(
-                            &window_, tr("End the lesson"),
-                            tr("Answers that were not saved are lost. The cases stay open. End the lesson?"),
-                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) == QMessageBox::Yes;
     // The button that asks goes away with the panel.
-    if (wanted) QMetaObject::invokeMethod(this, &Teaching::end, Qt::QueuedConnection);
+    if (may_end()) QMetaObject::invokeMethod(this, &Teaching::end, Qt::QueuedConnection);
   });
   head_ = new CaseHead;
   named_ = nullptr;
@@ -218,14 +215,20 @@ LessonEditor& Teaching::editor() {
   return *editor_;
 }
 
+bool Teaching::may_end(const QString& question) {
+  return !course_ || !course_->has_news() ||
+         QMessageBox::question(&window_, tr("End the lesson"), question, QMessageBox::Yes | QMessageBox::No,
+                               QMessageBox::No) == QMessageBox::Yes;
+}
+
+bool Teaching::may_end() {
+  return may_end(tr("Answers that were not saved are lost. The cases stay open. End the lesson?"));
+}
+
 bool Teaching::may_close() {
-  if (course_ && course_->has_news() &&
-      QMessageBox::question(&window_, tr("End the lesson"),
-                            tr("The answers to “%1” were not saved. Close all the same?")
-                                .arg(lesson_words(course_->lesson().title))) != QMessageBox::Yes) {
-    return false;
-  }
-  return editor_may_close();
+  const QString title = course_ ? lesson_words(course_->lesson().title) : QString();
+  return may_end(tr("The answers to “%1” were not saved. Close all the same?").arg(title)) &&
+         editor_may_close();
 }
 
 bool Teaching::editor_may_close() {

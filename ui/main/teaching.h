@@ -46,7 +46,8 @@ class Teaching : public QObject {
 
   void fill(QMenu& menu);
   void show_list(QPoint at);  // that menu, somewhere else on the screen
-  // Its studies are looked for beside its file; empty: one of the program's own.
+  // Its studies are looked for beside its file; empty: one of the program's own. The lesson that is being
+  // done is ended; where its answers would be lost, the user is asked.
   void begin(document::Lesson lesson, const std::filesystem::path& file);
   void go_on(const document::RescuedLesson& rescued);  // with the answers that a crash has left
   void open(const QString& file);                      // a lesson; says what is wrong with it
@@ -64,10 +65,14 @@ class Teaching : public QObject {
 
  private:
   void ask_and_open();
-  void show(document::Lesson lesson, const std::filesystem::path& file,
+  // False: the one that is being done stays, for its answers.
+  bool show(document::Lesson lesson, const std::filesystem::path& file,
             const document::LessonProgress* progress);
   void show(std::unique_ptr<engine::LessonCourse> course, const std::filesystem::path& file);
   void end();
+  // Whether the lesson may go: asks about answers that were not handed in.
+  [[nodiscard]] bool may_end(const QString& question);
+  [[nodiscard]] bool may_end();  // while the cases stay
   void open_case(const std::shared_ptr<const engine::LoadedStudy>& study);
   void show_case(engine::CaseProxy& proxy, const document::LessonTry& attempt);
   void name_case();

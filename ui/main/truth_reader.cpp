@@ -65,14 +65,15 @@ void TruthReader::read(CaseWindow& window, const QString& file) {
 
 void TruthReader::end(const QString& problem) {
   progress_->hide();
-  if (!problem.isEmpty()) window_.tell(problem, kAboutTruth);
+  if (read_.of && !problem.isEmpty()) window_.tell(*read_.of, problem, kAboutTruth);
 }
 
 void TruthReader::choose(const std::shared_ptr<const imaging::Segments>& segments) {
   end();
+  if (!read_.of) return;
   const QString file = QFileInfo(read_.file).fileName();
   const QString changes = engine::message_text(segments->changes);
-  if (!changes.isEmpty()) window_.tell(tr("%1: %2").arg(file, changes));
+  if (!changes.isEmpty()) window_.tell(*read_.of, tr("%1: %2").arg(file, changes));
   if (segments->list.size() == 1) return compare(read_, segments, {});
   QStringList names{tr("All of them together")};
   for (std::size_t i = 0; i < segments->list.size(); ++i)
@@ -124,21 +125,24 @@ void TruthReader::compare_with_label(CaseWindow& window) {
 void TruthReader::compare(CaseWindow& of, const QString& name, std::function<Mask()> make) {
   auto& job_of_case = jobs_of_[&of];
   if (job_of_case) job_of_case->abandon();
+  const QPointer alive(&of);
   job_of_case = engine::BackgroundJob::start(
       this,
-      [this, name, alive = QPointer(&of), make = std::move(make)](engine::BackgroundJob& job) {
+      [this, name, alive, make = std::move(make)](engine::BackgroundJob& job) {
         auto truth = std::make_shared<const Mask>(make());
         if (truth->count() == 0) truth = nullptr;
         job.deliver([this, truth, name, alive] {
           if (alive) take(*alive, truth, name);
         });
       },
-      [this](const Error& error) { window_.tell(engine::message_text(error), kAboutTruth); });
+      [this, alive](const Error& error) {
+        if (alive) window_.tell(*alive, engine::message_text(error), kAboutTruth);
+      });
 }
 
 void TruthReader::take(CaseWindow& of, const std::shared_ptr<const Mask>& truth, const QString& name) {
   if (!truth) {
-    return window_.tell(tr("%1 has no voxel inside: there is nothing to compare with.").arg(name),
+    return window_.tell(of, tr("%1 has no voxel inside: there is nothing to compare with.").arg(name),
                         kAboutTruth);
   }
   window_.dismiss_about(kAboutTruth);

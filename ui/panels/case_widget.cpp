@@ -1,9 +1,12 @@
 #include "ui/panels/case_widget.h"
 
+#include "ui/widgets/cancel_dialogs.h"
+
 namespace tidemark::ui {
 
 void CaseWidget::set_proxy(engine::CaseProxy* proxy) {
   if (proxy_ == proxy) return;
+  cancel_dialogs(*this);
   if (proxy_) {
     proxy_->disconnect(this);
     proxy_->display().disconnect(this);
@@ -30,6 +33,7 @@ void CaseWidget::follow() {
 // The proxy is half destroyed: nothing of it may be used.
 void CaseWidget::forget() {
   proxy_.clear();
+  cancel_dialogs(*this);
   attach();
 }
 

@@ -14,7 +14,8 @@ class CaseWidget : public QWidget {
  public:
   explicit CaseWidget(QWidget* parent = nullptr) : QWidget(parent) {}
 
-  // Null: no case is open. A proxy that is destroyed is forgotten.
+  // Null: no case is open. A proxy that is destroyed is forgotten. Dialogs of the parts ask about one case:
+  // they are cancelled when there is another.
   void set_proxy(engine::CaseProxy* proxy);
   [[nodiscard]] engine::CaseProxy* proxy() const { return proxy_; }
 

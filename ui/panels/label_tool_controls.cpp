@@ -170,10 +170,14 @@ document::LabelToolUse LabelToolControls::use() const {
   const Geometry& grid = proxy()->volume().geometry;
   use.axis = grid_axis(grid, axis_->currentData().toInt());
   use.other = static_cast<std::uint8_t>(other_->currentData().toInt());
+  // The preview follows the cross or the plane of a tool that works there. To others they make no difference.
   const engine::DisplaySettings& settings = proxy()->display().settings();
-  use.voxel = Index3(glm::round(grid.to_voxel(settings.cursor_mm)));
-  use.normal = settings.clip.normal;
-  use.point_mm = settings.clip.normal * settings.clip.offset_mm;
+  if (use.tool == LabelTool::island_here) {
+    use.voxel = Index3(glm::round(grid.to_voxel(settings.cursor_mm)));
+  } else if (use.tool == LabelTool::split) {
+    use.normal = settings.clip.normal;
+    use.point_mm = settings.clip.normal * settings.clip.offset_mm;
+  }
   return use;
 }
 
@@ -283,7 +287,7 @@ void LabelToolControls::attach() {
 
 void LabelToolControls::refresh() {
   fill_others();
-  if (!soon_.isActive() && !finisher()->asked_is_current()) look_again();
+  if (tool() && !soon_.isActive() && !finisher()->asked_is_current(use())) look_again();
   show_buttons();
 }
 

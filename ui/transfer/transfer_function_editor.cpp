@@ -14,6 +14,7 @@
 #include "ui/transfer/panel_scroll.h"
 #include "ui/transfer/preset_picker.h"
 #include "ui/transfer/primitive_page.h"
+#include "ui/widgets/cancel_dialogs.h"
 #include "ui/widgets/path_text.h"
 #include "ui/widgets/save_file.h"
 #include "ui/widgets/wheel_guard.h"
@@ -128,6 +129,7 @@ QWidget* TransferFunctionEditor::make_surface_tab() {
 
 void TransferFunctionEditor::set_display(engine::Display* display, const engine::SourceSummary* summary,
                                          const QString& unit) {
+  if (display != display_) cancel_dialogs(*this);
   // A colour that is just being chosen goes back to the case that it belongs to.
   for (PrimitivePage* page : {volume_page_, surface_page_}) page->form()->set_primitive(std::nullopt);
   if (display_) display_->disconnect(this);

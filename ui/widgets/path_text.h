@@ -3,6 +3,7 @@
 
 #include <QString>
 #include <filesystem>
+#include <system_error>
 
 namespace tidemark::ui {
 
@@ -14,6 +15,12 @@ inline QString text_of(const std::filesystem::path& path) {
 
 inline std::filesystem::path path_of(const QString& text) {
   return text.toStdU16String();
+}
+
+// Whether both are there and are one file, by whatever name.
+inline bool is_same_file(const QString& a, const QString& b) {
+  std::error_code none;
+  return std::filesystem::equivalent(path_of(a), path_of(b), none);
 }
 
 }  // namespace tidemark::ui

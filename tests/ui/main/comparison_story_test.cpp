@@ -104,6 +104,7 @@ void ComparisonStoryTest::a_duplicate_goes_on_by_itself() {
   QCOMPARE(copy->proxy().state().step, std::int64_t{4});
   QVERIFY(phi_of(*original) == phi_of(*copy));
   QVERIFY(copy->session_file.isEmpty());
+  QVERIFY(copy->proxy().state().modified);  // it is in no file, so that closing it asks
   copy->proxy().step(3);
   QVERIFY(Desktop::wait_for([&] { return copy->proxy().state().step == 7; }));
   desktop.wait_until_idle();

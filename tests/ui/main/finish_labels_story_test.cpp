@@ -57,6 +57,7 @@ class FinishLabelsStoryTest : public QObject {
   void a_label_is_split_between_seeds();
   void a_tool_works_on_the_case_that_is_seen();
   void a_preview_follows_the_locks_of_labels();
+  void a_preview_follows_the_cross_and_the_clip_plane();
   void each_tool_has_its_amount_after_any_other();
   void a_tool_waits_for_a_surface_that_moves();
   void each_case_keeps_its_chosen_label();
@@ -348,6 +349,56 @@ void FinishLabelsStoryTest::a_preview_follows_the_locks_of_labels() {
   type_amount(panel, "0.3");
   QVERIFY(Desktop::wait_for([&] { return says(panel, "It would change nothing."); }));
   QVERIFY(!apply->isEnabled());
+}
+
+void FinishLabelsStoryTest::a_preview_follows_the_cross_and_the_clip_plane() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  const Geometry& grid = desktop.proxy().volume().geometry;
+  engine::LabelFinisher& finisher = desktop.proxy().label_finisher();
+  const auto put_cross = [&](double voxel) {
+    desktop.proxy().display().change(
+        [&](engine::DisplaySettings& settings) { settings.cursor_mm = grid.to_patient(glm::dvec3(voxel)); });
+  };
+  const auto cut_at = [&](double voxel) {
+    desktop.proxy().display().change([&](engine::DisplaySettings& settings) {
+      settings.clip.normal = {1.0, 0.0, 0.0};
+      settings.clip.offset_mm = grid.to_patient(glm::dvec3(voxel)).x;
+    });
+  };
+  const auto keeps = [&](const IsInside& is_inside) {
+    const Region wanted = region_where(grid, is_inside);
+    return Desktop::wait_for([&] {
+      return finisher.is_current() && finisher.preview()->regions.front().region == wanted &&
+             seen<QAbstractButton>(panel, "Apply to labels")->isEnabled();
+    });
+  };
+  click(desktop, panel, "Add");
+  paint(desktop, [](Index3 v) { return is_block(v) || is_crumb(v); });
+
+  put_cross(63.0);
+  Desktop::choose_in(panel, "Tool", "Keep the island under the cross");
+  QVERIFY(keeps(is_crumb));
+  put_cross(25.0);
+  QVERIFY(keeps(is_block));
+  click(desktop, panel, "Apply to labels");
+  QVERIFY(region(desktop, 1) == region_where(grid, is_block));
+
+  cut_at(29.5);
+  Desktop::choose_in(panel, "Tool", "Split at the clip plane");
+  QVERIFY(keeps([](Index3 v) { return is_block(v) && v.x >= 30; }));
+  cut_at(39.5);
+  QVERIFY(keeps([](Index3 v) { return is_block(v) && v.x >= 40; }));
+
+  // To other tools they make no difference.
+  Desktop::choose_in(panel, "Tool", "Shrink");
+  wait_for_preview(desktop, panel);
+  const QSignalSpy previews(&finisher, &engine::LabelFinisher::changed);
+  put_cross(40.0);
+  cut_at(20.5);
+  QTest::qWait(500);
+  QCOMPARE(previews.size(), 0);
 }
 
 void FinishLabelsStoryTest::each_tool_has_its_amount_after_any_other() {

@@ -1,9 +1,11 @@
 // Segmentations and structure sets of other systems become labels: dropped, or lying beside a study.
 #include <QDragEnterEvent>
 #include <QDropEvent>
+#include <QLabel>
 #include <QMimeData>
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <span>
 
@@ -12,7 +14,13 @@
 #include "imaging/results/results.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/results_desktop.h"
+#include "ui/main/case_results.h"
+#include "ui/main/image_adder.h"
+#include "ui/main/message_bar.h"
+#include "ui/main/panel_docks.h"
+#include "ui/main/truth_reader.h"
 #include "ui/opening/load_report.h"
+#include "ui/panels/display_panel.h"
 
 namespace tidemark::test::labels_in_story_test {
 
@@ -44,21 +52,26 @@ class LabelsInStoryTest : public QObject, private ResultsDesktop {
   void init() { open(); }
   void cleanup() { close(); }
   void a_dropped_segmentation_becomes_labels_and_a_dropped_volume_a_study();
+  void what_is_dropped_on_a_case_becomes_labels_of_that_one();
+  void labels_of_another_case_leave_the_panels_alone();
+  void what_goes_wrong_in_another_case_bears_its_mark();
   void what_lies_beside_a_study_is_named_and_imported_by_a_click();
   void a_result_in_another_folder_is_offered_when_it_is_of_the_study();
   void results_in_the_archive_of_a_study_are_offered();
 
  private:
   [[nodiscard]] imaging::Segments block(const char* name);  // in two slices of the study
-  void drop(const QString& file);
+  void drop(const QString& file, QPoint at = {200, 300});   // in the main window
+  // Of the same size, side by side with the study: the active case from now on.
+  ui::CaseWindow& open_another();
   ui::LoadReport& report_on(const char* name, int cases);
 };
 
-void LabelsInStoryTest::drop(const QString& file) {
+void LabelsInStoryTest::drop(const QString& file, QPoint at) {
   QMimeData data;
   data.setUrls({QUrl::fromLocalFile(file)});
-  QDragEnterEvent enter({200, 300}, Qt::CopyAction, &data, Qt::LeftButton, {});
-  QDropEvent drop({200, 300}, Qt::CopyAction, &data, Qt::LeftButton, {});
+  QDragEnterEvent enter(at, Qt::CopyAction, &data, Qt::LeftButton, {});
+  QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, {});
   desktop_->in_an_event([&] {
     QCoreApplication::sendEvent(&desktop_->window(), &enter);
     QCoreApplication::sendEvent(&desktop_->window(), &drop);
@@ -105,6 +118,78 @@ imaging::Segments LabelsInStoryTest::block(const char* name) {
   }
   segments.list.push_back(segment);
   return segments;
+}
+
+ui::CaseWindow& LabelsInStoryTest::open_another() {
+  write_balls(folder_ / "another");
+  ui::CaseWindow* another = desktop_->open(path("another"));
+  if (!another) qFatal("the other study was not opened");
+  desktop_->window().resize(1300, 700);  // room for both
+  desktop_->window().actions().tile->trigger();
+  desktop_->wait_until_idle();
+  return *another;
+}
+
+void LabelsInStoryTest::what_is_dropped_on_a_case_becomes_labels_of_that_one() {
+  ui::MainWindow& main = desktop_->window();
+  ui::CaseWindow& another = open_another();
+  QCOMPARE(main.active_case(), &another);
+  QCOMPARE(failure(imaging::write_segmentation(block("Spleen"), {}, folder_ / "dropped.dcm")), QString());
+  const QWidget* view = window_->views().first();
+  const QPoint inside = view->mapTo(&main, view->rect().center());
+  QVERIFY(window_->isAncestorOf(main.childAt(inside)));
+  drop(path("dropped.dcm"), inside);
+  QVERIFY(Desktop::wait_for([&] { return window_->proxy().state().labels.size() == 1; }, kPatience));
+  QCOMPARE(main.active_case(), window_);
+  QVERIFY(another.proxy().state().labels.empty());
+
+  // The title is a part of the case.
+  const QWidget* child = another.parentWidget();
+  drop(path("dropped.dcm"), child->mapTo(&main, QPoint(child->width() / 2, 8)));
+  QVERIFY(Desktop::wait_for([&] { return another.proxy().state().labels.size() == 1; }, kPatience));
+  QCOMPARE(main.active_case(), &another);
+
+  // Beside all cases it is the active one.
+  drop(path("dropped.dcm"), {2, 2});
+  QVERIFY(Desktop::wait_for([&] { return another.proxy().state().labels.size() == 2; }, kPatience));
+  desktop_->wait_until_idle();
+  QCOMPARE(window_->proxy().state().labels.size(), std::size_t{1});
+}
+
+void LabelsInStoryTest::labels_of_another_case_leave_the_panels_alone() {
+  ui::MainWindow& main = desktop_->window();
+  ui::CaseWindow& another = open_another();
+  main.panels().show("display");
+  desktop_->wait_until_idle();
+  const auto* display = main.findChild<ui::DisplayPanel*>();
+  QVERIFY(display->isVisible());
+  QCOMPARE(failure(imaging::write_segmentation(block("Spleen"), {}, folder_ / "labels.dcm")), QString());
+  main.results().import_labels(*window_, path("labels.dcm"));
+  QVERIFY(Desktop::wait_for([&] { return window_->proxy().state().labels.size() == 1; }, kPatience));
+  desktop_->wait_until_idle();
+  QCOMPARE(main.active_case(), &another);
+  QVERIFY(display->isVisible());
+  main.results().import_labels(another, path("labels.dcm"));
+  QVERIFY(Desktop::wait_for([&] { return !display->isVisible(); }, kPatience));
+  desktop_->wait_until_idle();
+}
+
+void LabelsInStoryTest::what_goes_wrong_in_another_case_bears_its_mark() {
+  ui::MainWindow& main = desktop_->window();
+  QCOMPARE(window_->number(), 1);
+  const ui::CaseWindow& another = open_another();
+  std::ofstream(folder_ / "notes.txt") << "no image";
+  auto& bar = *main.findChild<ui::MessageBar*>();
+  const auto fails = [&](const std::function<void(const QString& file)>& read) {
+    bar.dismiss();
+    read(path("notes.txt"));
+    QVERIFY(Desktop::wait_for([&] { return !bar.text().isEmpty(); }, kPatience));
+    QVERIFY2(find_seen<QLabel>(bar, "Case 1"), qPrintable(bar.text()));
+  };
+  fails([&](const QString& file) { main.results().import_labels(*window_, file); });
+  fails([&](const QString& file) { main.images().add_file(*window_, file); });
+  fails([&](const QString& file) { main.findChild<ui::TruthReader*>()->read(*window_, file); });
+  QCOMPARE(main.active_case(), &another);
 }
 
 void LabelsInStoryTest::what_lies_beside_a_study_is_named_and_imported_by_a_click() {

@@ -34,6 +34,7 @@ class LessonStoryTest : public QObject {
  private slots:
   void the_study_opens_with_its_part();
   void a_lesson_without_answers_ends_without_a_question();
+  void another_lesson_takes_no_answers_without_a_question();
   void a_lesson_is_done_from_its_first_part_to_its_file();
 };
 
@@ -153,6 +154,40 @@ void LessonStoryTest::a_lesson_without_answers_ends_without_a_question() {
   QTest::mouseClick(button(*panel(), "End lesson"), Qt::LeftButton);
   desktop.wait_until_idle();
   QVERIFY(teaching.course());
+}
+
+void LessonStoryTest::another_lesson_takes_no_answers_without_a_question() {
+  Desktop desktop(story_executor(), {1366, 768});
+  const auto lesson = document::Lesson::parse(kBallLesson, "lesson");
+  QVERIFY(lesson.has_value());
+  ui::Teaching& teaching = desktop.window().teaching();
+  const auto title = [&] { return teaching.course()->lesson().title; };
+  teaching.begin(*lesson, {});
+  QVERIFY(Desktop::wait_for([&] { return teaching.course()->proxy() != nullptr; }, kPatience));
+  desktop.window().findChild<ui::LessonPanel*>()->findChildren<QRadioButton*>().at(0)->click();
+  QVERIFY(teaching.course()->has_news());
+
+  QAction* own = desktop.menu_entry("Teach", "1 ");
+  QVERIFY(own);
+  Desktop::answer(QMessageBox::No);
+  desktop.choose("Teach", own);
+  QCOMPARE(title(), lesson->title);
+  QVERIFY(teaching.course()->has_news());
+
+  // Nor does one that a crash has left.
+  document::RescuedLesson rescued;
+  rescued.lesson = *lesson;
+  rescued.lesson.title = "Left behind";
+  rescued.progress = teaching.course()->progress();
+  Desktop::answer(QMessageBox::No);
+  teaching.go_on(rescued);
+  QCOMPARE(title(), lesson->title);
+
+  Desktop::answer(QMessageBox::Yes);
+  desktop.choose("Teach", own);
+  QVERIFY(Desktop::wait_for([&] { return title() != lesson->title; }));
+  QVERIFY(!teaching.course()->has_news());
+  desktop.wait_until_idle();
 }
 
 TIDEMARK_TEST(LessonStoryTest)

@@ -2,6 +2,7 @@
 #include <QApplication>
 #include <QDialog>
 #include <QDockWidget>
+#include <QFileInfo>
 #include <QMap>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -40,6 +41,10 @@ class MainWindowTest : public QObject {
   void a_session_is_among_the_recent_studies();
   void a_quit_that_was_given_up_stays_given_up_data();
   void a_quit_that_was_given_up_stays_given_up();
+  void a_case_that_is_kept_at_quit_keeps_the_others();
+  void a_session_is_open_once();
+  void a_case_that_is_changed_while_it_is_saved_stays_open();
+  void measurements_are_work_that_is_saved();
 
  private:
   static bool is_in_front(Desktop& desktop, const char* panel);
@@ -402,6 +407,93 @@ void MainWindowTest::a_quit_that_was_given_up_stays_given_up() {
   QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
   QTest::qWait(200);
   QVERIFY(desktop.window().isVisible());
+}
+
+void MainWindowTest::a_case_that_is_kept_at_quit_keeps_the_others() {
+  Desktop desktop(solver::ExecutorKind::host);
+  QVERIFY(desktop.open_phantom("dumbbell"));  // without changes
+  for (int n = 0; n < 2; ++n) {
+    QVERIFY(desktop.open_phantom("sphere"));
+    desktop.begin(8.0);
+  }
+  int questions = 0;
+  QTimer answers;
+  connect(&answers, &QTimer::timeout, [&] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (!box) return;
+    ++questions;
+    box->button(QMessageBox::Cancel)->click();
+  });
+  answers.start(20);
+  QVERIFY(!desktop.window().close());
+  answers.stop();
+  QCOMPARE(questions, 1);
+  QTest::qWait(50);
+  QCOMPARE(desktop.window().cases().size(), 3);
+}
+
+void MainWindowTest::a_session_is_open_once() {
+  const TemporaryFolder folder;
+  const QString file = QString::fromStdString((folder / "one.tidemark").string());
+  Desktop desktop(solver::ExecutorKind::host);
+  ui::CaseWindow* first = desktop.open_phantom("sphere");
+  desktop.begin(10.0);
+  first->session_file = file;
+  desktop.press(Qt::Key_S, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return !first->proxy().state().modified; }));
+  QVERIFY(desktop.open_phantom("dumbbell"));
+  const std::filesystem::path link = folder / "link.tidemark";
+  std::filesystem::create_symlink(folder / "one.tidemark", link);
+  desktop.window().open(QString::fromStdString(link.string()));
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() == first; }));
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.window().cases().size(), 2);
+}
+
+void MainWindowTest::a_case_that_is_changed_while_it_is_saved_stays_open() {
+  const TemporaryFolder folder;
+  const QString file = QString::fromStdString((folder / "one.tidemark").string());
+  Desktop desktop(solver::ExecutorKind::host);
+  const QPointer window(desktop.open_phantom("sphere"));
+  desktop.begin(10.0);
+  window->session_file = file;
+  Desktop::answer(QMessageBox::Save);
+  desktop.press(Qt::Key_W, Qt::ControlModifier);
+  window->proxy().add_label("changed");
+  QVERIFY(Desktop::wait_for([&] { return QFileInfo::exists(file); }));
+  desktop.wait_until_idle();
+  QTest::qWait(100);
+  QVERIFY(window);
+  QVERIFY(window->proxy().state().modified);
+  const auto* told = desktop.window().findChild<ui::MessageBar*>();
+  QVERIFY2(told->text().contains("stays open"), qPrintable(told->text()));
+  Desktop::answer(QMessageBox::Save);
+  desktop.press(Qt::Key_W, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return !window; }));
+}
+
+void MainWindowTest::measurements_are_work_that_is_saved() {
+  const TemporaryFolder folder;
+  const QString file = QString::fromStdString((folder / "one.tidemark").string());
+  Desktop desktop(solver::ExecutorKind::host);
+  QVERIFY(desktop.open_phantom("sphere"));
+  QVERIFY(!desktop.state().modified);
+  const auto measure = [&](const glm::dvec3& end) {
+    desktop.proxy().display().change([&](engine::DisplaySettings& settings) {
+      settings.measurements = {{engine::Measurement::Kind::distance, {glm::dvec3(0.0), end}}};
+    });
+  };
+  measure(glm::dvec3(5.0));
+  QVERIFY(desktop.state().modified);
+  desktop.window().active_case()->session_file = file;
+  desktop.press(Qt::Key_S, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return !desktop.state().modified; }));
+  close_case(desktop);
+  QVERIFY(desktop.open(file));
+  QCOMPARE(desktop.proxy().display().settings().measurements.size(), std::size_t{1});
+  QVERIFY(!desktop.state().modified);
+  measure(glm::dvec3(6.0));
+  QVERIFY(desktop.state().modified);
 }
 
 TIDEMARK_TEST(MainWindowTest)

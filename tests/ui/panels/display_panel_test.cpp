@@ -4,6 +4,7 @@
 #include <QColorDialog>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QPointer>
 #include <QPushButton>
 #include <QToolButton>
 #include <glm/geometric.hpp>
@@ -113,6 +114,17 @@ class DisplayPanelTest : public QObject {
     dialog->setCurrentColor(QColor(255, 0, 51));
     dialog->accept();
     QCOMPARE(settings().surface_colour, glm::vec4(1.0F, 0.0F, 0.2F, 0.5F));
+  }
+
+  void a_colour_that_is_being_chosen_is_for_no_other_case() {
+    PanelCase other;
+    auto* colour = panel_->findChild<ui::ColourButton*>();
+    QTest::mouseClick(colour, Qt::LeftButton);
+    const QPointer<QColorDialog> dialog = colour->findChild<QColorDialog*>();
+    QVERIFY(dialog && dialog->isVisible());
+    panel_->set_proxy(other.proxy.get());
+    QTRY_VERIFY(!dialog);
+    panel_->set_proxy(nullptr);
   }
 
   void the_clip_plane_lies_across_the_crosshair_and_hides_the_viewers_side() {

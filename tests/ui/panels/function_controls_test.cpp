@@ -2,6 +2,7 @@
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLabel>
+#include <QPointer>
 #include <QPushButton>
 #include <algorithm>
 
@@ -145,6 +146,23 @@ class FunctionControlsTest : public QObject {
     drive.setting = {};
     the_case_->proxy->set_drive(drive);
     QTRY_VERIFY(!joint->isVisible());
+  }
+
+  void a_map_that_is_being_chosen_is_for_no_other_case() {
+    PanelCase other;
+    auto* function = named<QComboBox>(*panel_, tr("Driven by"));
+    function->setFocus();
+    QTest::keyClick(function, Qt::Key_M);  // "Map"
+    auto* choose = button<QPushButton>(*panel_, tr("Choose a map…"));
+    QTRY_VERIFY(choose->isVisible());
+    QTest::mouseClick(choose, Qt::LeftButton);
+    const QPointer<QFileDialog> dialog = panel_->findChild<QFileDialog*>();
+    QVERIFY(dialog && dialog->isVisible());
+    panel_->set_proxy(the_case_->proxy.get());  // still the same
+    QVERIFY(dialog->isVisible());
+    panel_->set_proxy(other.proxy.get());
+    QTRY_VERIFY(!dialog);
+    panel_->set_proxy(nullptr);
   }
 
  private:

@@ -182,15 +182,33 @@ class LabelsPanelTest : public QObject {
 
   void a_colour_is_chosen_in_a_dialog_that_blocks_nothing() {
     add();
-    auto& table = *panel_->findChild<QTableView*>();
-    const QModelIndex cell = table.model()->index(0, ui::LabelsModel::colour);
-    QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, table.visualRect(cell).center());
-    auto* dialog = panel_->findChild<QColorDialog*>();
+    QColorDialog* dialog = ask_for_colour();
     QVERIFY(dialog);
     dialog->setCurrentColor(QColor(10, 200, 30));
     dialog->accept();
     the_case_->wait_until_idle();
     QCOMPARE(the_case_->state().labels.front().colour, (std::array<std::uint8_t, 3>{10, 200, 30}));
+  }
+
+  void a_colour_that_is_being_chosen_is_for_no_other_case() {
+    add();
+    PanelCase other;
+    other.proxy->add_label(QStringLiteral("Tumour"));  // with the same number
+    other.wait_until_idle();
+    QCOMPARE(other.state().labels.front().id, the_case_->state().labels.front().id);
+    const QPointer<QColorDialog> dialog = ask_for_colour();
+    QVERIFY(dialog && dialog->isVisible());
+    panel_->set_proxy(other.proxy.get());
+    QTRY_VERIFY(!dialog);
+    panel_->set_proxy(nullptr);
+  }
+
+  void a_colour_is_not_chosen_for_a_case_that_has_closed() {
+    add();
+    const QPointer<QColorDialog> dialog = ask_for_colour();
+    QVERIFY(dialog && dialog->isVisible());
+    the_case_->proxy.reset();
+    QTRY_VERIFY(!dialog);
   }
 
   void a_label_means_what_its_name_says_until_it_is_told() {
@@ -284,6 +302,13 @@ class LabelsPanelTest : public QObject {
   }
 
  private:
+  // By a click on the colour of the first label.
+  QColorDialog* ask_for_colour() {
+    auto& table = *panel_->findChild<QTableView*>();
+    const QModelIndex cell = table.model()->index(0, ui::LabelsModel::colour);
+    QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, table.visualRect(cell).center());
+    return panel_->findChild<QColorDialog*>();
+  }
   void add() {
     QTest::mouseClick(button<QToolButton>(*panel_, tr("Add")), Qt::LeftButton);
     the_case_->wait_until_idle();

@@ -193,6 +193,30 @@ class TransferEditorTest : public QObject {
     f.editor.set_display(nullptr, nullptr);
   }
 
+  void a_function_that_is_being_loaded_is_for_no_other_case() {
+    EditorFixture f;
+    QVERIFY(f.is_shown());
+    const TemporaryFolder folder;
+    const auto file = folder / "bone.json";
+    QVERIFY(write_file(file, renderer::preset("ct-bone").value().to_json()).has_value());
+    tidemark::engine::Display other;  // X11 has one, too
+    other.change([](engine::DisplaySettings& s) { s.transfer = renderer::preset("ct-lung").value(); });
+    bool asked = false;
+    QTimer another_case;
+    connect(&another_case, &QTimer::timeout, this, [&] {
+      auto* dialog = f.editor.findChild<QFileDialog*>();
+      if (!dialog || !dialog->isVisible()) return;
+      asked = true;
+      f.editor.set_display(&other, &f.summary);
+      if (dialog->isVisible()) name_file(*dialog, QString::fromStdString(file.string()));
+    });
+    another_case.start(20);
+    QTest::mouseClick(seen<QPushButton>(f.editor, "Load…"), Qt::LeftButton);
+    QVERIFY(asked);
+    QVERIFY(other.settings().transfer == renderer::preset("ct-lung").value());
+    f.editor.set_display(nullptr, nullptr);
+  }
+
   void a_wheel_that_scrolls_the_panel_changes_no_number() {
     EditorFixture f;
     QVERIFY(f.is_shown());
