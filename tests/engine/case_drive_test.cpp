@@ -114,6 +114,28 @@ class CaseDriveTest : public QObject {
     QVERIFY(ball_->failures.isEmpty());
   }
 
+  // The former function would move its surface, and the recipe would say so.
+  void cases_in_lock_step_wait_for_one_that_learns() {
+    engine::CaseProxy other(ball_->engine, ball_study(), solver::ExecutorKind::host);
+    document::Start start;
+    start.seeds.push_back({ball_->middle(), 4.0});
+    other.begin(start);
+    ball_->begin();
+    engine::CaseProxy::play_in_lock_step({proxy_, &other});
+    proxy_->set_drive(learning(10.0));
+    other.step(3);
+    bool is_carried_out = false;
+    other.after_commands([&] { is_carried_out = true; });
+    QTRY_VERIFY_WITH_TIMEOUT(is_carried_out, kPatience);
+    QCOMPARE(other.state().step, std::int64_t{0});
+    QCOMPARE(proxy_->state().step, std::int64_t{0});
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed && !proxy_->state().speed_waits, kPatience);
+    other.step(3);
+    QTRY_COMPARE_WITH_TIMEOUT(other.state().step, std::int64_t{3}, kPatience);
+    QTRY_COMPARE_WITH_TIMEOUT(proxy_->state().step, std::int64_t{3}, kPatience);
+    engine::CaseProxy::play_in_lock_step({});
+  }
+
   void the_source_is_smoothed_while_the_surface_moves() {
     ball_->begin();
     proxy_->set_drive(learning(10.0));
