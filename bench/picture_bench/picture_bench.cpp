@@ -90,8 +90,8 @@ class Bench {
 
   void run() {
     fmt::print("\n{:18} {:>6} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8} {:>10}\n", "preset",
-               "side", "first ms", "ray ms", "cpu ms", "still ms", "gl ray ms", "vtk ms", "vtk first", "ray/vtk",
-               "vtk gl ms");
+               "side", "first ms", "ray ms", "cpu ms", "still ms", "gl ray ms", "vtk ms", "vtk first",
+               "ray/vtk", "vtk gl ms");
     for (const std::string& preset : options_.presets) {
       for (const std::int64_t side : options_.sides) compare(preset, side);
     }
@@ -162,8 +162,8 @@ class Bench {
     const auto ms = [](const std::vector<double>& values) {
       return values.empty() ? std::string("-") : fmt::format("{:.0f}", 1e3 * median(values));
     };
-    fmt::print("{:18} {:>6} {:>10.0f} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10.0f} {:>8} {:>10}\n", preset, side,
-               1e3 * first, ms(rays), ms(processor), ms(stills), ms(gl), ms(vtk), 1e3 * vtk_first,
+    fmt::print("{:18} {:>6} {:>10.0f} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10.0f} {:>8} {:>10}\n", preset,
+               side, 1e3 * first, ms(rays), ms(processor), ms(stills), ms(gl), ms(vtk), 1e3 * vtk_first,
                vtk.empty() ? "-" : fmt::format("{:.2f}", median(rays) / median(vtk)), ms(vtk_gl));
     keep(expect(renderer::draw_still(*host_, view, size)), "host", preset, side);
     if (gl_) keep(expect(renderer::draw_still(*gl_, view, size)), "gl", preset, side);

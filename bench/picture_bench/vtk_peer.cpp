@@ -70,8 +70,8 @@ Result<std::unique_ptr<VtkPeer>> VtkPeer::start(Mapper mapper, const Volume& vol
   int to[2];
   int from[2];
   if (pipe2(to, O_CLOEXEC) != 0 || pipe2(from, O_CLOEXEC) != 0) return fail(ErrorKind::internal, "no pipe");
-  std::vector<std::string> words{python, TIDEMARK_VTK_PEER,
-                                 mapper == Mapper::opengl ? "opengl" : "processor", file.string()};
+  std::vector<std::string> words{python, TIDEMARK_VTK_PEER, mapper == Mapper::opengl ? "opengl" : "processor",
+                                 file.string()};
   for (int axis = 0; axis < 3; ++axis) words.push_back(fmt::to_string(volume.geometry.size[axis]));
   for (int axis = 0; axis < 3; ++axis) words.push_back(fmt::to_string(volume.geometry.spacing_mm[axis]));
   std::vector<char*> arguments;

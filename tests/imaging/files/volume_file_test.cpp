@@ -274,7 +274,8 @@ class VolumeFileTest : public QObject {
                                "spacings: 2 2 3\nunits: \"ell\" \"ell\" \"ell\"\n\nabcdefgh");
     const auto by_unknown = imaging::scan_volume_file(folder / "v.nrrd");
     QCOMPARE(failure(by_unknown), QString());
-    QCOMPARE(std::ranges::count(by_unknown->warnings, "units 'ell' are not known; lengths are read as mm"), 1);
+    QCOMPARE(std::ranges::count(by_unknown->warnings, "units 'ell' are not known; lengths are read as mm"),
+             1);
     put(folder / "v.nrrd", header(1.0, "\"mm\" \"mm\" \"um\""));
     const auto refused = imaging::read_volume_file(folder / "v.nrrd");
     QVERIFY(!refused);
