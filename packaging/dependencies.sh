@@ -29,7 +29,7 @@ tidemark_long_test_packages=(clang-format clang-tidy python3-skimage)
 # Only making packages (packaging/release.sh) and ./test --long need these: what is in the bundle beside libraries, what
 # makes archives, packages and images, and systems in folders to try them in.
 tidemark_package_packages=(
-  qt6-translations-l10n qt6-wayland libgl1-mesa-dri libegl-mesa0 libglx-mesa0 fonts-dejavu-core fonts-droid-fallback patchelf makeself xz-utils
+  qt6-translations-l10n qt6-wayland libgl1-mesa-dri libegl-mesa0 libglx-mesa0 fonts-dejavu-core fonts-dejavu-extra fonts-droid-fallback patchelf makeself xz-utils
   git debhelper fakeroot lintian desktop-file-utils appstream mmdebstrap imagemagick rpm umoci skopeo python3
 )
 
