@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <random>
@@ -21,6 +23,7 @@ namespace fs = std::filesystem;
 // A temporary name: this, six characters, a hyphen, and the target's name.
 constexpr std::string_view kPrefix = ".tidemark-";
 constexpr std::size_t kUnique = 6;
+constexpr std::string_view kOlder = "-older";  // behind it: the folder that one of that name replaces
 
 std::string reason(int error) {
   return std::generic_category().message(error);
@@ -40,6 +43,23 @@ int sync_path(const fs::path& path) {
 
 fs::path folder_of(const fs::path& target) {
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+// Of the target's name what there is room for in a temporary one: its end, by whose suffix libraries go.
+std::string name_in_temporary(const fs::path& target) {
+  constexpr std::size_t kLongest = NAME_MAX - (kPrefix.size() + kUnique + 1) - kOlder.size();
+  const std::string name = target.filename().string();
+  std::size_t begin = name.size() - std::min(name.size(), kLongest);
+  while (begin < name.size() && (static_cast<unsigned char>(name[begin]) & 0xc0) == 0x80) ++begin;
+  return name.substr(begin);
+}
+
+// What a link leads to, so that it stays one.
+fs::path place_of(const fs::path& target) {
+  std::error_code error;
+  if (!fs::is_symlink(target, error)) return target;
+  fs::path place = fs::canonical(target, error);
+  return error ? target : place;
 }
 
 // A folder that a new one can replace. A user who works in the current one, or has a disk mounted
@@ -67,7 +87,7 @@ void sweep_beside(const fs::path& target) {
   std::vector<fs::path> left;
   for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end;
        entry.increment(error)) {
-    const bool is_named_so = AtomicFile::target_of(entry->path()) == target.filename();
+    const bool is_named_so = AtomicFile::target_of(entry->path()) == name_in_temporary(target);
     if (is_named_so && is_own_folder(entry->path())) left.push_back(entry->path());
   }
   for (const fs::path& folder : left) {
@@ -81,10 +101,10 @@ template <class Make>
 Result<fs::path> make_beside(const fs::path& target, const Make& make) {
   constexpr int kAttempts = 100;
   thread_local std::random_device random;  // costs more to make than to ask
-  int error = EEXIST;
+  int error = target.filename().native().size() > NAME_MAX ? ENAMETOOLONG : EEXIST;
   for (int attempt = 0; attempt < kAttempts && error == EEXIST; ++attempt) {
     const std::string name =
-        fmt::format("{}{:0{}x}-{}", kPrefix, random() & 0xffffffU, kUnique, target.filename().string());
+        fmt::format("{}{:0{}x}-{}", kPrefix, random() & 0xffffffU, kUnique, name_in_temporary(target));
     const fs::path made = folder_of(target) / name;
     error = make(made);
     if (error == 0) return made;
@@ -108,7 +128,8 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   if (fs::is_directory(target, ignored)) {
     return fail(ErrorKind::write, "{}: cannot write: it is a folder", target.string());
   }
-  auto made = make_beside(target, [](const fs::path& name) {
+  const fs::path place = place_of(target);
+  auto made = make_beside(place, [](const fs::path& name) {
     const int descriptor = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor < 0) return errno;
     ::close(descriptor);
@@ -116,9 +137,13 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   });
   if (!made) return pass_on(made);
   AtomicFile file;
-  file.target_ = target;
+  file.target_ = place;
   file.temporary_ = std::move(*made);
   file.unfinished_ = Unfinished(file.temporary_);
+  if (const fs::file_status older = fs::status(place, ignored); fs::is_regular_file(older)) {
+    fs::permissions(file.temporary_, older.permissions() | fs::perms::owner_read | fs::perms::owner_write,
+                    ignored);
+  }
   return file;
 }
 
@@ -146,15 +171,33 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   return *this;
 }
 
-Status AtomicFile::commit() {
-  if (const int error = sync_path(temporary_); error != 0) {
-    return fail(ErrorKind::write, "{}: cannot write: {}", target_.string(), reason(error));
-  }
+Status AtomicFile::sync() const {
+  const int error = sync_path(temporary_);
+  if (error == 0) return {};
+  return fail(ErrorKind::write, "{}: cannot write: {}", target_.string(), reason(error));
+}
+
+Status AtomicFile::take_name() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
     return fail(ErrorKind::write, "{}: cannot write: {}", target_.string(), reason(errno));
   }
   temporary_.clear();
-  sync_path(folder_of(target_));  // makes the new name durable; the contents already are
+  return {};
+}
+
+Status AtomicFile::commit() {
+  return commit_all(std::span(this, 1));
+}
+
+Status AtomicFile::commit_all(std::span<AtomicFile> files, const Progress& progress) {
+  for (const AtomicFile& file : files) {
+    if (progress.cancelled()) return cancelled_error();
+    TIDEMARK_TRY(file.sync());
+  }
+  if (progress.cancelled()) return cancelled_error();
+  for (AtomicFile& file : files) TIDEMARK_TRY(file.take_name());
+  // Makes the new names durable; the contents already are.
+  for (const AtomicFile& file : files) sync_path(folder_of(file.target_));
   return {};
 }
 
@@ -215,7 +258,7 @@ int AtomicFolder::exchange() {
   if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
   // Some network file systems cannot. For a moment there is then neither, but never a mixture.
-  const fs::path older = temporary_.string() + "-older";
+  const fs::path older = temporary_.string() + std::string(kOlder);
   if (::rename(target_.c_str(), older.c_str()) != 0) return errno;
   if (::rename(temporary_.c_str(), target_.c_str()) == 0) {
     temporary_ = older;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "core/file_lock.h"
+#include "core/progress.h"
 #include "core/result.h"
 #include "core/unfinished.h"
 
@@ -13,7 +15,8 @@ namespace tidemark {
 
 // A file that is written beside its target and takes the target's name only when it is complete. The caller
 // writes to temporary_path(); commit() syncs it to disk and renames it. Without a commit, the destructor
-// removes the temporary file and the target is left as it was.
+// removes the temporary file and the target is left as it was. It has the permissions of an older file, and
+// where the target is a link, it takes the place of what that leads to.
 class AtomicFile {
  public:
   // Fails (ErrorKind::write) when the target's folder does not exist or cannot be written to.
@@ -22,17 +25,24 @@ class AtomicFile {
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&& other) noexcept;
 
-  // Ends with the target's whole file name, so that libraries that go by the suffix do the right thing.
+  // Ends with the target's file name, so that libraries that go by the suffix do the right thing. Of a long
+  // one the beginning is left out.
   [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_; }
 
   [[nodiscard]] Status commit();
 
-  // The name of the target of which `file` is the temporary file or folder; empty when it is none. A program
-  // that is killed leaves it behind.
+  // Commits all of them or none: the first takes its name once all are on the disk. Until then it fails
+  // (ErrorKind::cancelled) when told to stop.
+  [[nodiscard]] static Status commit_all(std::span<AtomicFile> files, const Progress& progress = {});
+
+  // The name of the target of which `file` is the temporary file or folder, or as much as it holds of a long
+  // one; empty when it is none. A program that is killed leaves it behind.
   [[nodiscard]] static std::string target_of(const std::filesystem::path& file);
 
  private:
   AtomicFile() = default;
+  [[nodiscard]] Status sync() const;
+  [[nodiscard]] Status take_name();
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty when committed or moved from
   Unfinished unfinished_;

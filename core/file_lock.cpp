@@ -43,15 +43,16 @@ FileLock FileLock::wait(const std::filesystem::path& path, Missing missing, cons
 }
 
 bool FileLock::is_taken(const std::filesystem::path& path) {
-  const int descriptor = open_to_lock(path, 0);
-  if (descriptor < 0) return false;
-  const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(descriptor);
-  return taken;
+  FileLock lock;
+  lock.descriptor_ = open_to_lock(path, 0);
+  return lock && ::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
+// To close it is not enough: a process that was forked meanwhile has the descriptor, too.
 FileLock::~FileLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!*this) return;
+  ::flock(descriptor_, LOCK_UN);
+  ::close(descriptor_);
 }
 
 FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}

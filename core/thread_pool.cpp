@@ -36,8 +36,13 @@ int reading_threads() {
 ThreadPool::ThreadPool(int threads) {
   const int members = threads > 0 ? threads : available_processors();
   shares_ = std::vector<Share>(static_cast<std::size_t>(members));
-  for (int member = 1; member < members; ++member) {
-    workers_.emplace_back([this, member] { work(member); });
+  workers_.reserve(shares_.size());
+  try {
+    for (int member = 1; member < members; ++member) {
+      workers_.emplace_back([this, member] { work(member); });
+    }
+  } catch (const std::exception&) {
+    // The system gives no more of them: those that there are do the work.
   }
 }
 
@@ -62,7 +67,7 @@ void ThreadPool::throw_on() {
 }
 
 void ThreadPool::take_pieces(int member) {
-  const auto members = shares_.size();
+  const auto members = static_cast<std::size_t>(threads());
   for (std::size_t i = 0; i < members; ++i) {
     Share& from = shares_[(static_cast<std::size_t>(member) + i) % members];
     for (;;) {

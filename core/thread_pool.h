@@ -16,7 +16,8 @@ namespace tidemark {
 // no processor, it is as fast as on one thread.
 class ThreadPool {
  public:
-  // threads >= 1 counts the caller, which works too; 0 means one per processor this process may use.
+  // threads >= 1 counts the caller, which works too; 0 means one per processor this process may use. Where
+  // the system gives fewer, the team is smaller.
   explicit ThreadPool(int threads = 0);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -62,7 +63,7 @@ class ThreadPool {
     std::atomic<std::int64_t> taken{0};
     Range range;
   };
-  std::vector<Share> shares_;  // one a member
+  std::vector<Share> shares_;  // one a member, at least
   std::int64_t grain_ = 1;
   Direction direction_ = Direction::forward;
   const Body* body_ = nullptr;

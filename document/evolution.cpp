@@ -10,6 +10,11 @@
 
 namespace tidemark::document {
 
+std::int64_t watch_every_for(std::int64_t calls, std::int64_t steps) {
+  const std::int64_t intervals = calls - 1;
+  return std::max<std::int64_t>((steps + intervals / 2) / intervals, 1);
+}
+
 std::string spacing_difference(const glm::dvec3& then, const Volume& volume) {
   const glm::dvec3 now = volume.geometry.spacing_mm;
   bool same_spacing = true;

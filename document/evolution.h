@@ -29,6 +29,9 @@ struct EvolutionOptions {
   std::function<Status(solver::Executor&, std::int64_t step)> watch = {};
 };
 
+// EvolutionOptions::watch_every for about so many calls, two or more, over that many steps.
+[[nodiscard]] std::int64_t watch_every_for(std::int64_t calls, std::int64_t steps);
+
 // A level set at the end of its evolution.
 struct Evolution {
   solver::Field phi;

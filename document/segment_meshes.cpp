@@ -112,8 +112,7 @@ Status write_meshes(const imaging::Segments& segments, const std::filesystem::pa
     TIDEMARK_TRY(imaging::write_mesh(*mesh, file->temporary_path()));
     staged.push_back(std::move(*file));
   }
-  for (AtomicFile& file : staged) TIDEMARK_TRY(file.commit());
-  return {};
+  return AtomicFile::commit_all(staged, progress);
 }
 
 }  // namespace tidemark::document

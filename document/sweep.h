@@ -1,7 +1,7 @@
 // A sweep: level sets from one start, with one or two of the parameters over their values.
 //
 // Each run is computed by the host executor on one thread, several at once, and leads to the same bits as a
-// single run with its parameters.
+// single run from there with its parameters.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,5 @@
 #include "engine/film.h"
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -56,7 +55,7 @@ Status write_film(const document::Recipe& recipe, const std::shared_ptr<const Vo
   Camera camera(std::move(*renderer), view, size, *film);
   document::EvolutionOptions options;
   options.executor = solver::ExecutorKind::host;
-  options.watch_every = std::max<std::int64_t>(recipe.steps / (kPictures - 1), 1);
+  options.watch_every = document::watch_every_for(kPictures, recipe.steps);
   options.watch = [&](solver::Executor& executor, std::int64_t) {
     return camera.shoot(executor, progress.stop);
   };

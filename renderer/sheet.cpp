@@ -68,6 +68,8 @@ Result<Picture> draw_sheet(Renderer& renderer, const SheetView& view, PictureSiz
   SliceView slice;
   slice.position_mm = view.position_mm;
   slice.window = view.window;
+  slice.nearest = view.nearest;
+  slice.contours = view.contours;
   constexpr int kPictures = 5;
   int pictures = 0;
   std::int64_t column = 0;

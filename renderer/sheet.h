@@ -11,6 +11,8 @@ struct SheetView {
   bool sides_are_known = true;  // of the patient: else "?" is written at the edges
   bool speed = false;           // with the speed map: the parameters are those of the study
   SpeedTerm term = SpeedTerm::data;
+  bool nearest = false;   // of slices, as in SliceView
+  bool contours = false;  // likewise
   VolumeView volume;
 };
 

@@ -81,7 +81,7 @@ Status run(Program& program, const AiSegmentOptions& options) {
   if (!clicks) return pass_on(clicks);
   Outputs outputs;
   TIDEMARK_TRY(outputs.announce("--out", options.out, {FileForm::volume}));
-  TIDEMARK_TRY(outputs.spare(options.study.path));
+  TIDEMARK_TRY(spare_study(outputs, options.study, console.progress()));
   const auto server = chosen_ai_server(options.choice);
   if (!server) return pass_on(server);
   const auto loaded = load_study(options.study, console.progress());
@@ -103,7 +103,7 @@ Status run(Program& program, const AiSegmentOptions& options) {
   TIDEMARK_TRY(outputs.stage(options.out, [&](const std::filesystem::path& file) {
     return imaging::write_volume_file(volume, file);
   }));
-  TIDEMARK_TRY(outputs.commit());
+  TIDEMARK_TRY(outputs.commit(console.progress()));
   console.say("Wrote      {}", options.out);
   console.result({{"server", server->name},
                   {"url", server->access.url},

@@ -7,6 +7,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/cohort_commands.h"
 #include "app/cli/pacs_commands.h"
+#include "app/cli/shell_word.h"
 #include "core/text_file.h"
 #include "document/checksum.h"
 #include "document/cohort/case_status.h"
@@ -310,7 +311,7 @@ void PlanCommand::say() {
   console_.say("Planned    {} cases{}", found_.list.rows.size(),
                skipped_ > 0 ? fmt::format(", {} left out", skipped_) : "");
   console_.say("Wrote      {}", folder_.work_list().string());
-  console_.say("Next       tidemark-cli cohort run {}", arguments_.out);
+  console_.say("Next       tidemark-cli cohort run {}", shell_word(arguments_.out));
   Json object;
   object["cases"] = found_.list.rows.size();
   object["skipped"] = skipped_;

@@ -28,10 +28,10 @@ struct ReportArguments {
 };
 
 // The page looks for pictures beside it: it lies in the cohort's folder.
-Status write_reports(const cohort::CohortFolder& folder, const cohort::Review& review,
-                     const ReportArguments& arguments, Console& console) {
+Status write_reports(const cohort::CohortFolder& folder, const cohort::CohortPlan& plan,
+                     const cohort::Review& review, const ReportArguments& arguments, Console& console) {
   const auto pictures = arguments.pictures.value_or(cohort::suitable_pictures(folder, review));
-  const auto page = cohort::report_page(folder, review, pictures, console.progress());
+  const auto page = cohort::report_page(folder, plan, review, pictures, console.progress());
   if (!page) return pass_on(page);
   TIDEMARK_TRY(write_file(folder.path() / "report.csv", cohort::review_csv(review)));
   TIDEMARK_TRY(write_file(folder.path() / "report.json", cohort::review_json(review)));
@@ -56,7 +56,7 @@ Status run(Program& program, const ReportArguments& arguments) {
   if (!list) return pass_on(list);
   const auto review = cohort::review(folder, *list, console.progress());
   if (!review) return pass_on(review);
-  TIDEMARK_TRY(write_reports(folder, *review, arguments, console));
+  TIDEMARK_TRY(write_reports(folder, *plan, *review, arguments, console));
   Json object;
   const std::int64_t done = review->count(cohort::CaseOutcome::done);
   object["cases"] = list->rows.size();

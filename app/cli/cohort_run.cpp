@@ -9,6 +9,7 @@
 #include "document/cohort/case_run.h"
 #include "document/cohort/pacs_cases.h"
 #include "document/cohort/runner.h"
+#include "solver/host/host_executor.h"
 
 namespace tidemark::cli {
 namespace {
@@ -69,10 +70,10 @@ Result<cohort::RunOptions> options_of(const RunArguments& arguments) {
   if (options.stale_after_s < 1.0 || options.stale_after_s > kMostSeconds) {
     return fail(ErrorKind::usage, "--stale-after {}: must be 1 to {} s", options.stale_after_s, kMostSeconds);
   }
-  options.memory_bytes = arguments.memory_mb ? *arguments.memory_mb * kMebibyte : machine_memory() / jobs;
   if (arguments.memory_mb && (*arguments.memory_mb < 1 || *arguments.memory_mb > kMostMegabytes)) {
     return fail(ErrorKind::usage, "--memory {}: is out of range", *arguments.memory_mb);
   }
+  options.memory_bytes = arguments.memory_mb ? *arguments.memory_mb * kMebibyte : machine_memory() / jobs;
   options.retry = arguments.retry;
   options.program = TIDEMARK_VERSION;
   return options;
@@ -120,11 +121,13 @@ Status run(Program& program, const RunArguments& arguments) {
 
   const auto servers = cohort::servers_of(plan->servers_file, list->rows);
   if (!servers) return pass_on(servers);
-  cohort::CaseRun one{*plan, 1, 0, TIDEMARK_VERSION, *servers};
+  cohort::CaseRun one{*plan, 1, 0, TIDEMARK_VERSION, *servers, folder.cases()};
   one.threads = static_cast<int>(
       arguments.threads.value_or(std::max(1, static_cast<int>(available_processors()) / options->jobs)));
   // A quarter is for the study and what is written.
   one.memory_bytes = options->memory_bytes / 4 * 3;
+  // By an instruction set that is not there each case would fail.
+  TIDEMARK_TRY(solver::HostExecutor::chosen_kernels());
   const auto compute = [&](const cohort::WorkRow& row, const std::filesystem::path& to) {
     return cohort::run_case(one, row, to);
   };

@@ -3,6 +3,7 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/cohort_commands.h"
+#include "app/cli/shell_word.h"
 #include "core/atomic_file.h"
 #include "document/cohort/cohort_folder.h"
 
@@ -26,13 +27,6 @@ struct SubmitArguments {
   bool slurm = false;
   std::optional<std::int64_t> tasks, largest_array, jobs, memory_mb;
 };
-
-// In single quotes, for a shell.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-  return word + "'";
-}
 
 // The folder of logs: Slurm replaces %j and the like in their names.
 std::string log_name(const std::filesystem::path& folder) {
@@ -83,8 +77,8 @@ std::string script_of(const SubmitArguments& arguments, const std::filesystem::p
   // Slurm warns the task before its end, so that its cases are given back at once.
   text += "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --signal=B:TERM@30\n";
   // Not all sites confine a task to the processors that it has asked for.
-  text += fmt::format("exec {} cohort run {} --jobs {} --threads 1", quoted(program.string()),
-                      quoted(folder.string()), jobs);
+  text += fmt::format("exec {} cohort run {} --jobs {} --threads 1", shell_word(program.string()),
+                      shell_word(folder.string()), jobs);
   if (arguments.memory_mb) text += fmt::format(" --memory {}", *arguments.memory_mb);
   return text + "\n";
 }
@@ -99,13 +93,13 @@ Status run(Program& program, const SubmitArguments& arguments) {
   TIDEMARK_TRY(write_file(script, script_of(arguments, folder.path())));
   const std::int64_t tasks = arguments.tasks.value_or(1);
   const std::int64_t largest = arguments.largest_array.value_or(kDefaultArray);
-  const std::string log = quoted(log_name(folder.path()));
+  const std::string log = shell_word(log_name(folder.path()));
   Json commands = Json::array();
   console.say("Wrote      {}", script.string());
   for (std::int64_t begun = 0; begun < tasks; begun += largest) {
     const std::string command =
         fmt::format("sbatch --array=0-{} --output={} {}", std::min(largest, tasks - begun) - 1, log,
-                    quoted(script.string()));
+                    shell_word(script.string()));
     console.say("Next       {}", command);
     commands.push_back(command);
   }

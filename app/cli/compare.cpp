@@ -141,21 +141,20 @@ Result<Json> estimate(const std::vector<FileRegions>& readers, const Geometry& g
   return object;
 }
 
-Status check(const CompareOptions& options, Outputs& outputs) {
+Status check(const CompareOptions& options, Outputs& outputs, const Progress& progress) {
   if (options.files.size() < 2) return fail(ErrorKind::usage, "compare needs two files at least");
   if (options.staple.empty()) return {};
   if (options.labels) return fail(ErrorKind::usage, "--staple is for masks, not for --labels");
   TIDEMARK_TRY(outputs.announce("--staple", options.staple, {FileForm::volume}));
-  for (const std::string& file : options.files) {
-    TIDEMARK_TRY(outputs.spare(file));
-  }
-  return outputs.spare(options.grid);
+  std::vector<std::string> inputs = options.files;
+  if (!options.grid.empty()) inputs.push_back(options.grid);
+  return spare_inputs(outputs, inputs, progress);
 }
 
 Status run(Program& program, const CompareOptions& options) {
   Console& console = program.console;
   Outputs outputs;
-  TIDEMARK_TRY(check(options, outputs));
+  TIDEMARK_TRY(check(options, outputs, console.progress()));
   std::optional<Geometry> grid;
   if (!options.grid.empty()) {
     StudyInput study;
@@ -186,7 +185,7 @@ Status run(Program& program, const CompareOptions& options) {
     auto estimated = estimate(readers, *grid, options.staple, outputs, console);
     if (!estimated) return pass_on(estimated);
     result["staple"] = std::move(*estimated);
-    TIDEMARK_TRY(outputs.commit());
+    TIDEMARK_TRY(outputs.commit(console.progress()));
     console.say("Wrote      {}", options.staple);
   }
   console.result(result);

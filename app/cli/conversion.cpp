@@ -34,6 +34,18 @@ Volume::Voxels as_stored(std::vector<float> values) {
 
 }  // namespace
 
+StudyInput ConversionOptions::input() const {
+  StudyInput input = study;
+  if (!source.empty()) input.series.clear();
+  return input;
+}
+
+StudyInput ConversionOptions::source_study() const {
+  StudyInput study_of_source = study;
+  study_of_source.path = source;
+  return study_of_source;
+}
+
 Result<Conversion> Conversion::load(ConversionOptions options, const Progress& progress) {
   Conversion conversion(std::move(options));
   TIDEMARK_TRY(conversion.load_source(progress));
@@ -50,9 +62,7 @@ Result<Conversion> Conversion::load(ConversionOptions options, const Progress& p
 
 Status Conversion::load_source(const Progress& progress) {
   if (options_.source.empty()) return {};
-  StudyInput source = options_.study;
-  source.path = options_.source;
-  const auto chosen = find_study(source, progress);
+  const auto chosen = find_study(options_.source_study(), progress);
   if (!chosen) return pass_on(chosen);
   grid_ = chosen->series.geometry;
   frame_of_reference_uid_ = chosen->series.frame_of_reference_uid;
@@ -75,13 +85,11 @@ Status Conversion::load_result(const Progress& progress) {
 }
 
 Status Conversion::load_volume(const Progress& progress) {
-  StudyInput input = options_.study;
-  if (grid_) input.series.clear();
-  auto loaded = load_study(input, progress);
+  auto loaded = load_study(options_.input(), progress);
   if (!loaded) return pass_on(loaded);
   Volume& volume = loaded->volume;
   if (grid_) {
-    auto values = imaging::onto_grid(volume, *grid_, input.path);
+    auto values = imaging::onto_grid(volume, *grid_, options_.study.path);
     if (!values) return pass_on(values);
     volume.geometry = *grid_;
     volume.voxels = as_stored(std::move(*values));
@@ -138,6 +146,10 @@ Status Conversion::require_segments() const {
 
 // The volume itself, or its inside: 1, or the number of the segment.
 Status Conversion::write_values(const fs::path& file) {
+  if (!geometry().oriented && !imaging::can_leave_sides_open(file, geometry())) {
+    segments_.changes.emplace_back(
+        "the output names sides of the patient, which nobody knows of the input; a .nrrd file names none");
+  }
   if (volume_ && options_.kind != InputKind::mask) return imaging::write_volume_file(*volume_, file);
   if (options_.kind == InputKind::mask) return imaging::write_mask_file(imaging::union_of(segments_), file);
   auto map = imaging::label_map_of(segments_);

@@ -25,6 +25,11 @@ struct ConversionOptions {
   InputKind kind = InputKind::volume;
   std::string source;  // the study that INPUT was made of, whose grid, patient and frame of reference it gets
   std::vector<LabelArgument> labels;
+
+  // INPUT as it is read.
+  [[nodiscard]] StudyInput input() const;
+  // The source as it is read; it must be given.
+  [[nodiscard]] StudyInput source_study() const;
 };
 
 class Conversion {

@@ -34,7 +34,7 @@ struct ConvertOptions {
   std::string rtstruct, each;
 };
 
-Status check(const ConvertOptions& options, Outputs& outputs) {
+Status check(const ConvertOptions& options, Outputs& outputs, const Progress& progress) {
   if (int{options.as_mask} + int{options.as_labels} + int{options.as_phi} > 1) {
     return fail(ErrorKind::usage, "only one of --mask, --labels and --phi can be given");
   }
@@ -52,11 +52,10 @@ Status check(const ConvertOptions& options, Outputs& outputs) {
   if (!options.rtstruct.empty()) {
     TIDEMARK_TRY(outputs.announce_dicom("--rtstruct", options.rtstruct));
   }
-  for (const std::string& input : {options.conversion.study.path, options.conversion.source}) {
-    if (input.empty()) continue;
-    TIDEMARK_TRY(outputs.spare(input));
+  if (!options.conversion.source.empty()) {
+    TIDEMARK_TRY(spare_study(outputs, options.conversion.source_study(), progress));
   }
-  return {};
+  return spare_study(outputs, options.conversion.input(), progress);
 }
 
 Status write_all(const ConvertOptions& options, Conversion& conversion, Outputs& outputs, Console& console) {
@@ -113,7 +112,7 @@ Json to_json(const ConvertOptions& options, const Conversion& conversion) {
 Status run(Program& program, const ConvertOptions& options) {
   Console& console = program.console;
   Outputs outputs;
-  TIDEMARK_TRY(check(options, outputs));
+  TIDEMARK_TRY(check(options, outputs, console.progress()));
   ConversionOptions chosen = options.conversion;
   chosen.kind = options.as_mask     ? InputKind::mask
                 : options.as_labels ? InputKind::labels
@@ -122,8 +121,7 @@ Status run(Program& program, const ConvertOptions& options) {
   auto conversion = Conversion::load(std::move(chosen), console.progress());
   if (!conversion) return pass_on(conversion);
   TIDEMARK_TRY(write_all(options, *conversion, outputs, console));
-  if (console.interrupted()) return cancelled_error();
-  TIDEMARK_TRY(outputs.commit());
+  TIDEMARK_TRY(outputs.commit(console.progress()));
   say(options, *conversion, console);
   console.result(to_json(options, *conversion));
   return {};

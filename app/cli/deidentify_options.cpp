@@ -128,7 +128,7 @@ Status require_complete(const imaging::Deidentified& result) {
         return file.kind == Kind::risky || file.kind == Kind::unreadable;
       });
   if (count == 0) return {};
-  return fail(ErrorKind::input, "{} of {} files were left out: they are damaged, or may show who it is",
+  return fail(ErrorKind::input, "{} of {} files were left out: they cannot be read, or may show who it is",
               count, result.files.size() + result.left_out.size());
 }
 

@@ -6,6 +6,7 @@
 #include "app/cli/program.h"
 #include "app/cli/report.h"
 #include "app/cli/solver_options.h"
+#include "app/cli/study_input.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
 #include "solver/distance_transform.h"
@@ -54,13 +55,13 @@ double smallest_spacing(const Geometry& geometry) {
   return std::min({geometry.spacing_mm.x, geometry.spacing_mm.y, geometry.spacing_mm.z});
 }
 
-Status check(const DistanceOptions& options, Outputs& outputs) {
+Status check(const DistanceOptions& options, Outputs& outputs, const Progress& progress) {
   TIDEMARK_TRY(check(rescaling_alone(options.band)));
   TIDEMARK_TRY(check(options.solver));
   for (const std::string& file : options.out) {
     TIDEMARK_TRY(outputs.announce("--out", file, {FileForm::volume}));
   }
-  return outputs.spare(options.mask);
+  return spare_inputs(outputs, {options.mask}, progress);
 }
 
 Json to_json(const solver::Executor& solver, const solver::AdvanceReport& report, const Geometry& geometry) {
@@ -86,7 +87,7 @@ Volume in_millimetres(const solver::Field& phi) {
 Status run(Program& program, const DistanceOptions& options) {
   Console& console = program.console;
   Outputs outputs;
-  TIDEMARK_TRY(check(options, outputs));
+  TIDEMARK_TRY(check(options, outputs, console.progress()));
   const auto loaded = imaging::load_any_mask(options.mask, nullptr, console.progress());
   if (!loaded) return pass_on(loaded);
   const Mask& mask = loaded->mask;
@@ -111,7 +112,7 @@ Status run(Program& program, const DistanceOptions& options) {
     TIDEMARK_TRY(outputs.stage(file, write));
     if (console.interrupted()) return cancelled_error();
   }
-  TIDEMARK_TRY(outputs.commit());
+  TIDEMARK_TRY(outputs.commit(console.progress()));
   console.say("Steps      {}{}", report->steps, report->converged ? ", converged" : ", not converged");
   console.say("Distance   -{0:.4g} to {0:.4g} mm, > 0 inside",
               solver.band() * smallest_spacing(mask.geometry));

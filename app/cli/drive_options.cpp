@@ -144,6 +144,14 @@ bool DriveOptions::uses_tent() const {
   return functions.empty() || uses(*this, "tent");
 }
 
+DriveOptions DriveOptions::without_unused_files() const {
+  DriveOptions used = *this;
+  const auto setting = setting_of(*this);
+  if (setting && !document::uses_images(*setting)) used.images.clear();
+  if (!uses(*this, "image")) used.map.reset();
+  return used;
+}
+
 void add_image_options(CLI::App& app, DriveOptions& options) {
   app.add_option(
          "--image", options.images,

@@ -23,6 +23,8 @@ struct DriveOptions {
   std::optional<double> within_mm;
 
   [[nodiscard]] bool uses_tent() const;
+  // Less the images and the map that none of its functions takes.
+  [[nodiscard]] DriveOptions without_unused_files() const;
 };
 
 void add_drive_options(CLI::App& app, DriveOptions& options);
@@ -35,7 +37,7 @@ void add_image_options(CLI::App& app, DriveOptions& options);
 Status check(const DriveOptions& options, bool starts_from_mask);
 // T and epsilon are the tent's. Fails (ErrorKind::usage) naming the option where there is no tent.
 Status check_tent(const DriveOptions& options, bool has_target, bool has_range);
-// The files that are read.
+// The files and folders that are read.
 [[nodiscard]] std::vector<std::string> inputs_of(const DriveOptions& options);
 
 // The drive with its files read; null: nothing but the tent. Fails (ErrorKind::input, ErrorKind::usage)

@@ -24,7 +24,9 @@ constexpr CommandHelp kFilm{
     "by\n"
     "so many degrees of azimuth, over the whole film. With both it does so while the surface moves. Slices "
     "and\n"
-    "--fit go by the surface at the end.",
+    "--fit go by the surface at the end. --image and --speed-image give the images and the map that a "
+    "recipe\n"
+    "needs.",
     "  tidemark-cli film study/ --recipe liver.json --view axial --out growth.gif\n"
     "  tidemark-cli film study/ --mask liver.nii.gz --turn 360 --frames 90 --out liver.gif\n"
     "  tidemark-cli film study/ --recipe liver.json --every 5 --turn 90 --size 640x480 --out both.gif\n"};
@@ -66,6 +68,17 @@ Status check(const FilmOptions& options) {
   return {};
 }
 
+// Of an evolution: the start, and one after every so many steps, also where the last are fewer.
+std::int64_t frames_of(std::int64_t steps, std::int64_t every) {
+  return (steps + every - 1) / every + 1;
+}
+
+// Steps from one picture to the next, for about so many pictures; for fewer where those would be too many.
+std::int64_t steps_between(std::int64_t frames, std::int64_t steps) {
+  const std::int64_t nearest = document::watch_every_for(frames, steps);
+  return frames_of(steps, nearest) <= kMostFrames ? nearest : nearest + 1;
+}
+
 // Draws the pictures of a film, one after the other.
 class Camera {
  public:
@@ -103,9 +116,12 @@ class Camera {
 };
 
 Status shoot_turn(Camera& camera, std::int64_t frames, Console& console) {
+  const Progress progress = console.progress();
   for (std::int64_t frame = 0; frame < frames; ++frame) {
-    if (console.interrupted()) return cancelled_error();
-    TIDEMARK_TRY(camera.shoot(console.progress().part(static_cast<int>(frame), static_cast<int>(frames))));
+    if (progress.cancelled()) return cancelled_error();
+    const Progress one = progress.part(static_cast<int>(frame), static_cast<int>(frames));
+    one(0.0, "drawing");
+    TIDEMARK_TRY(camera.shoot(one));
   }
   return {};
 }
@@ -138,9 +154,6 @@ Status run(Program& program, const FilmOptions& options) {
   if (!views) return pass_on(views);
   Outputs outputs;
   TIDEMARK_TRY(outputs.announce_gif("--out", options.render.out));
-  for (const std::string& input : inputs_of(options.render)) {
-    TIDEMARK_TRY(outputs.spare(input));
-  }
 
   document::Recipe recipe;
   std::int64_t frames = options.frames.value_or(kFrames);
@@ -149,13 +162,15 @@ Status run(Program& program, const FilmOptions& options) {
     auto loaded = document::Recipe::load(options.render.recipe);
     if (!loaded) return pass_on(loaded);
     recipe = std::move(*loaded);
-    every = options.every.value_or(std::max<std::int64_t>(recipe.steps / (frames - 1), 1));
-    frames = (recipe.steps + every - 1) / every + 1;
+    every = options.every.value_or(steps_between(frames, recipe.steps));
+    frames = frames_of(recipe.steps, every);
     if (frames > kMostFrames) {
       return fail(ErrorKind::usage, "--every {}: {} steps would make {} pictures; at most {}", every,
                   recipe.steps, frames, kMostFrames);
     }
   }
+  TIDEMARK_TRY(spare_study(outputs, options.render.study, console.progress(), recipe.source.policy));
+  TIDEMARK_TRY(spare_inputs(outputs, inputs_of(options.render), console.progress()));
   auto scene = make_scene(options.render, std::move(*views), console, recipe.source.policy);
   if (!scene) return pass_on(scene);
   if (every > 0) {
@@ -182,7 +197,7 @@ Status run(Program& program, const FilmOptions& options) {
     return file->finish();
   };
   TIDEMARK_TRY(outputs.stage(options.render.out, write));
-  TIDEMARK_TRY(outputs.commit());
+  TIDEMARK_TRY(outputs.commit(console.progress()));
   console.say("Film       {} pictures of {} x {} pixels, {:.3g} a second, in {}", shot, size.width,
               size.height, per_second, options.render.out);
   Json object;

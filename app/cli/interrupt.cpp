@@ -1,5 +1,6 @@
 #include "app/cli/interrupt.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -17,26 +18,36 @@ constexpr int kWake = SIGUSR1;
 // For the program to end by itself. With what it takes to clean up, a signal ends it within a second.
 constexpr timespec kGrace{0, 700'000'000};
 
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+// Not those that nohup ignores, or a script for its jobs in the background: they would arrive once blocked.
 sigset_t awaited_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, kWake}) sigaddset(&signals, signal);
+  sigaddset(&signals, kWake);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (!is_ignored(signal)) sigaddset(&signals, signal);
+  }
   return signals;
 }
 
 // Whoever holds locks of the C library, holds them still: nothing but system calls.
-[[noreturn]] void end_at_once() {
+[[noreturn]] void end_at_once(int standard_error) {
   remove_unfinished();
   constexpr std::string_view kClear = "\r\x1b[K";  // the progress bar
   constexpr std::string_view kText = "tidemark-cli: error: interrupted\n";
-  if (::isatty(STDERR_FILENO) == 1) static_cast<void>(!::write(STDERR_FILENO, kClear.data(), kClear.size()));
-  static_cast<void>(!::write(STDERR_FILENO, kText.data(), kText.size()));
+  if (::isatty(standard_error) == 1)
+    static_cast<void>(!::write(standard_error, kClear.data(), kClear.size()));
+  static_cast<void>(!::write(standard_error, kText.data(), kText.size()));
   ::_exit(exit_code(ErrorKind::cancelled));
 }
 
 }  // namespace
 
-Interrupt::Interrupt() {
+Interrupt::Interrupt() : standard_error_(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)) {
   ::signal(SIGXFSZ, SIG_IGN);
   ::signal(SIGPIPE, SIG_IGN);
   const sigset_t signals = awaited_signals();
@@ -60,7 +71,7 @@ void Interrupt::wait_for_signals() {
     return only;
   }();
   while (!done_) {
-    if (sigtimedwait(&wake, nullptr, &kGrace) < 0 && errno == EAGAIN) end_at_once();
+    if (sigtimedwait(&wake, nullptr, &kGrace) < 0 && errno == EAGAIN) end_at_once(standard_error_);
   }
 }
 
@@ -68,6 +79,7 @@ Interrupt::~Interrupt() {
   done_ = true;
   pthread_kill(waiter_.native_handle(), kWake);
   waiter_.join();
+  ::close(standard_error_);
 }
 
 }  // namespace tidemark::cli

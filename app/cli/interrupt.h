@@ -10,10 +10,10 @@
 namespace tidemark::cli {
 
 // While it lives, a thread of its own waits for SIGINT, SIGTERM and SIGHUP, and then requests the stop;
-// nothing runs inside a signal handler. A program that is in a library or waits for a file cannot stop by
-// itself: the thread removes unfinished files and ends the process, with the exit code of an interrupt. Also
-// ignores SIGXFSZ and SIGPIPE, so that a full disk and a closed pipe are failed writes rather than sudden
-// death. Create it before any other thread.
+// nothing runs inside a signal handler. A signal that was ignored before, as by nohup, stays ignored. A
+// program that is in a library or waits for a file cannot stop by itself: the thread removes unfinished files
+// and ends the process, with the exit code of an interrupt. Also ignores SIGXFSZ and SIGPIPE, so that a full
+// disk and a closed pipe are failed writes rather than sudden death. Create it before any other thread.
 class Interrupt {
  public:
   Interrupt();
@@ -26,6 +26,7 @@ class Interrupt {
  private:
   void wait_for_signals();
 
+  const int standard_error_;  // also while commands have put it aside
   std::stop_source source_;
   std::atomic<bool> done_{false};
   std::thread waiter_;

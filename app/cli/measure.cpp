@@ -225,7 +225,7 @@ Result<std::vector<MeasuredRow>> measure_all(const document::FileRegions& region
 }
 
 Status write_files(const std::vector<MeasuredRow>& rows, const std::string& modality,
-                   const MeasureOptions& options, Outputs& outputs) {
+                   const MeasureOptions& options, Outputs& outputs, const Progress& progress) {
   if (!options.csv.empty()) {
     TIDEMARK_TRY(outputs.stage(
         options.csv, [&](const std::filesystem::path& file) { return write_file(file, csv_of(rows)); }));
@@ -238,7 +238,7 @@ Status write_files(const std::vector<MeasuredRow>& rows, const std::string& moda
       return imaging::write_measurement_report(options.file, segments, modality, file);
     }));
   }
-  return outputs.commit();
+  return outputs.commit(progress);
 }
 
 // The images themselves stay where they are.
@@ -265,37 +265,35 @@ Status stage_key_images(const imaging::LoadedSeries& study, const MeasureOptions
   });
 }
 
-Status announce(const MeasureOptions& options, Outputs& outputs) {
+Status announce(const MeasureOptions& options, Outputs& outputs, const Progress& progress) {
+  if (!options.csv.empty()) {
+    TIDEMARK_TRY(outputs.announce_csv("--csv", options.csv));
+  }
+  if (!options.report.empty()) {
+    TIDEMARK_TRY(outputs.announce_dicom("--report", options.report));
+    if (!options.labels || imaging::result_form_of(options.file) != imaging::ResultForm::segmentation)
+      return fail(ErrorKind::usage, "--report needs --labels, and a DICOM segmentation that it can refer to");
+  }
   for (const auto& [option, file] :
        {std::pair{"--key-images", options.key_images}, {"--presentation", options.presentation}}) {
     if (file.empty()) continue;
     TIDEMARK_TRY(outputs.announce_dicom(option, file));
-    TIDEMARK_TRY(outputs.spare(options.study.path));
-    TIDEMARK_TRY(outputs.spare(options.file));
   }
   if (!options.key_images.empty() && !options.labels)
     return fail(ErrorKind::usage, "--key-images needs --labels: each label has an image of its own");
   if (!options.presentation.empty() && options.key_images.empty())
     return fail(ErrorKind::usage, "--presentation needs --key-images, whose images it shows");
-  return {};
+  TIDEMARK_TRY(spare_study(outputs, options.study, progress));
+  std::vector<std::string> inputs = options.images;
+  inputs.push_back(options.file);
+  if (!options.before.empty()) inputs.push_back(options.before);
+  return spare_inputs(outputs, inputs, progress);
 }
 
 Status run(Program& program, const MeasureOptions& options) {
   Console& console = program.console;
   Outputs outputs;
-  if (!options.csv.empty()) {
-    TIDEMARK_TRY(outputs.announce_csv("--csv", options.csv));
-    for (const std::string& input : {options.study.path, options.file, options.before}) {
-      if (!input.empty()) TIDEMARK_TRY(outputs.spare(input));
-    }
-  }
-  if (!options.report.empty()) {
-    TIDEMARK_TRY(outputs.announce_dicom("--report", options.report));
-    TIDEMARK_TRY(outputs.spare(options.file));
-    if (!options.labels || imaging::result_form_of(options.file) != imaging::ResultForm::segmentation)
-      return fail(ErrorKind::usage, "--report needs --labels, and a DICOM segmentation that it can refer to");
-  }
-  TIDEMARK_TRY(announce(options, outputs));
+  TIDEMARK_TRY(announce(options, outputs, console.progress()));
   std::vector<Earlier> earlier;
   if (!options.before.empty()) {
     auto read = read_earlier(options.before);
@@ -325,7 +323,7 @@ Status run(Program& program, const MeasureOptions& options) {
     result["regions"].push_back(std::move(region));
   }
   if (!options.before.empty()) result["change"] = changes_since(earlier, *rows, console);
-  TIDEMARK_TRY(write_files(*rows, modality, options, outputs));
+  TIDEMARK_TRY(write_files(*rows, modality, options, outputs, console.progress()));
   for (const std::string& file : {options.csv, options.report, options.key_images, options.presentation}) {
     if (!file.empty()) console.say("Wrote      {}", file);
   }

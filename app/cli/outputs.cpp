@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <system_error>
 
 #include "app/cli/audit.h"
@@ -54,8 +55,8 @@ std::filesystem::path whole_path(const std::filesystem::path& file) {
   return std::filesystem::weakly_canonical(file, ignored);
 }
 
-// Keeps what the libraries below the writers print on standard error (nifti, MetaIO) off it: an error is one
-// line, and ours says the same.
+// Keeps what the libraries that write volumes print on standard error (nifti, MetaIO) off it: an error is one
+// line, and ours says the same. No progress is seen while it lives.
 class StandardErrorAside {
  public:
   StandardErrorAside() : kept_(::dup(STDERR_FILENO)) {
@@ -156,7 +157,8 @@ Status Outputs::stage(const std::filesystem::path& file,
   if (!staged) return pass_on(staged);
   Status written;
   {
-    const StandardErrorAside quiet;
+    std::optional<StandardErrorAside> quiet;
+    if (has_form(file, FileForm::volume)) quiet.emplace();
     written = write(staged->temporary_path());
   }
   if (!written) {
@@ -169,12 +171,9 @@ Status Outputs::stage(const std::filesystem::path& file,
   return {};
 }
 
-Status Outputs::commit() {
-  Status committed;
-  for (AtomicFile& staged : staged_) {
-    committed = staged.commit();
-    if (!committed) break;
-  }
+Status Outputs::commit(const Progress& progress) {
+  Status committed = AtomicFile::commit_all(staged_, progress);
+  if (!committed && committed.error().kind == ErrorKind::cancelled) return committed;
   if (committed) staged_.clear();
   return exported(std::move(committed), files_);
 }

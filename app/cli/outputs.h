@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/atomic_file.h"
+#include "core/progress.h"
 #include "core/result.h"
 
 namespace tidemark::cli {
@@ -27,15 +28,15 @@ class Outputs {
   Status announce_dicom(const std::string& option, const std::filesystem::path& file);
   Status announce_csv(const std::string& option, const std::filesystem::path& file);
 
-  // Fails (ErrorKind::usage) when an announced file is this input: inputs are never written to.
+  // Fails (ErrorKind::usage) when an announced file is this one. See spare_study() and spare_inputs().
   [[nodiscard]] Status spare(const std::filesystem::path& input) const;
 
   // Writes an announced file under a temporary name beside its target; `write` gets that name.
   Status stage(const std::filesystem::path& file,
                const std::function<Status(const std::filesystem::path&)>& write);
 
-  // Gives all staged files their names. Without it they are removed again.
-  Status commit();
+  // Gives all staged files their names, as AtomicFile::commit_all() does. Without it they are removed again.
+  Status commit(const Progress& progress);
 
  private:
   Status announce_suffix(const std::string& option, const std::filesystem::path& file,

@@ -7,7 +7,7 @@
 #include "app/cli/pacs_commands.h"
 #include "core/files_below.h"
 #include "imaging/archive/private_folder.h"
-#include "imaging/dicom/dicom.h"
+#include "imaging/dicom/detect.h"
 #include "imaging/pacs/services.h"
 
 namespace tidemark::cli {
@@ -71,6 +71,12 @@ Status run_get(Program& program, const GetOptions& options) {
               retrieved->missing, retrieved->refused.size());
 }
 
+// What cannot be opened may be one: to send it says why it is not sent.
+bool may_be_dicom(const fs::path& file) {
+  auto bytes = imaging::FileBytes::open(file);
+  return !bytes || imaging::begins_as_dicom(*bytes);
+}
+
 // The files themselves, and the DICOM files in folders.
 Result<std::vector<fs::path>> files_of(const std::vector<std::string>& paths) {
   std::vector<fs::path> files;
@@ -79,7 +85,7 @@ Result<std::vector<fs::path>> files_of(const std::vector<std::string>& paths) {
     if (!inside) return pass_on(inside);
     std::error_code error;
     if (fs::is_directory(path, error)) {
-      std::erase_if(*inside, [](const fs::path& file) { return !imaging::looks_like_dicom(file); });
+      std::erase_if(*inside, [](const fs::path& file) { return !may_be_dicom(file); });
     }
     if (inside->empty()) return fail(ErrorKind::input, "{}: holds no DICOM file", path.string());
     files.insert(files.end(), inside->begin(), inside->end());

@@ -6,6 +6,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/program.h"
 #include "app/cli/report.h"
+#include "app/cli/shell_word.h"
 #include "imaging/phantom/phantom.h"
 
 namespace tidemark::cli {
@@ -63,8 +64,8 @@ std::string next_command(const imaging::Phantom& phantom, const std::filesystem:
         fmt::format("--init-threshold={},{}", phantom.init_threshold->first, phantom.init_threshold->second);
   }
   return fmt::format("tidemark-cli segment {} --target {} --range {} --alpha {} {} --out {}",
-                     (folder / "series").string(), phantom.target, phantom.range, phantom.alpha, start,
-                     (folder / "mask.nii.gz").string());
+                     shell_word((folder / "series").string()), phantom.target, phantom.range, phantom.alpha,
+                     start, shell_word((folder / "mask.nii.gz").string()));
 }
 
 // Writes the study; when that fails, everything new is removed again.

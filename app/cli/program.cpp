@@ -4,6 +4,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -42,21 +43,16 @@ Research use only. Not for diagnostic use.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_description(const CLI::App* app) const override {
-    const CommandHelp* help = find(app->get_name());
+    const auto found = descriptions_.find(app);
     return Formatter::make_description(app) +
-           (help != nullptr ? help->description + std::string("\n\n") : "");
+           (found != descriptions_.end() ? found->second + std::string("\n\n") : "");
   }
 
-  void add(const CommandHelp& help) { commands_.push_back(help); }
+  // Groups may have commands of one name.
+  void add(const CLI::App& command, const char* description) { descriptions_[&command] = description; }
 
  private:
-  const CommandHelp* find(const std::string& name) const {
-    const auto found = std::find_if(commands_.begin(), commands_.end(),
-                                    [&](const CommandHelp& help) { return help.name == name; });
-    return found == commands_.end() ? nullptr : &*found;
-  }
-
-  std::vector<CommandHelp> commands_;
+  std::map<const CLI::App*, const char*> descriptions_;
 };
 
 void add_all(CLI::App& app, Program& program) {
@@ -93,6 +89,26 @@ Status check_command_word(const CLI::App& app, int argc, char** argv) {
   return {};
 }
 
+// The program, and the group and the command that its words have named so far.
+std::vector<const CLI::App*> named_by_words(const CLI::App& app) {
+  std::vector<const CLI::App*> named{&app};
+  while (!named.back()->get_subcommands().empty()) named.push_back(named.back()->get_subcommands().front());
+  return named;
+}
+
+// A script makes an empty word of a variable that is not set, and would not learn that the option counts for
+// nothing. Only a text that has a default can be emptied.
+void refuse_empty_values(const CLI::App& app) {
+  for (const CLI::App* named : named_by_words(app)) {
+    for (const CLI::Option* option : named->get_options()) {
+      const std::vector<std::string>& values = option->results();
+      const bool has_empty = std::find(values.begin(), values.end(), "") != values.end();
+      if (has_empty && option->get_default_str().empty())
+        throw CLI::ValidationError(option->get_name(), "the value is empty");
+    }
+  }
+}
+
 // One of the unparsed words says more than all of them.
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
@@ -111,12 +127,10 @@ int answer_parser(const CLI::App& app, Program& program, const CLI::ParseError& 
     return program.console.finish({});
   }
   std::string message = describe(app, error);
+  const std::vector<const CLI::App*> named = named_by_words(app);
   std::string words;
-  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
-    at = at->get_subcommands().front();
-    words += at->get_name() + " ";
-  }
-  if (!words.empty()) message += " (see tidemark-cli " + words + "--help)";
+  for (const CLI::App* one : named) words += one->get_name() + " ";
+  if (named.size() > 1) message += " (see " + words + "--help)";
   return program.console.finish(fail(ErrorKind::usage, "{}", message));
 }
 
@@ -132,6 +146,7 @@ int run_unguarded(int argc, char** argv, Program& program) {
   if (const Status known = check_command_word(app, argc, argv); !known) return program.console.finish(known);
   try {
     app.parse(argc, argv);
+    refuse_empty_values(app);
   } catch (const CLI::ParseError& error) {
     return answer_parser(app, program, error);
   }
@@ -147,11 +162,11 @@ int run_unguarded(int argc, char** argv, Program& program) {
 CLI::App& add_command(CLI::App& app, Program& program, const CommandHelp& help, std::function<Status()> run) {
   CLI::App& command = *app.add_subcommand(help.name, help.summary);
   if (const auto formatter = std::dynamic_pointer_cast<HelpFormatter>(app.get_formatter()))
-    formatter->add(help);
+    formatter->add(command, help.description);
   command.footer(std::string("\nExamples:\n") + help.examples);
   command.add_flag_callback(
       "--json", [&program] { program.console.set_json(true); },
-      "Machine-readable JSON on standard output; words for people go to standard error");
+      "Machine-readable JSON on standard output; words for people come with --verbose, on standard error");
   command.add_flag_callback(
       "--verbose", [&program] { program.console.set_verbose(true); },
       "Say on standard error what is being done");

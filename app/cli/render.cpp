@@ -42,9 +42,8 @@ Status run(Program& program, const RenderOptions& options) {
   if (!views) return pass_on(views);
   Outputs outputs;
   TIDEMARK_TRY(outputs.announce_png("--out", options.out));
-  for (const std::string& input : inputs_of(options)) {
-    TIDEMARK_TRY(outputs.spare(input));
-  }
+  TIDEMARK_TRY(spare_study(outputs, options.study, console.progress()));
+  TIDEMARK_TRY(spare_inputs(outputs, inputs_of(options), console.progress()));
   auto scene = make_scene(options, std::move(*views), console);
   if (!scene) return pass_on(scene);
   const auto picture = draw(*scene, options, console.progress());
@@ -54,7 +53,7 @@ Status run(Program& program, const RenderOptions& options) {
     return imaging::write_png_file(picture->width, picture->height, picture->pixels, name);
   };
   TIDEMARK_TRY(outputs.stage(options.out, write));
-  TIDEMARK_TRY(outputs.commit());
+  TIDEMARK_TRY(outputs.commit(console.progress()));
   console.say("Picture    {} x {} pixels in {}", picture->width, picture->height, options.out);
   Json object;
   object["file"] = options.out;

@@ -191,7 +191,7 @@ Status check(const RenderOptions& options) {
   if (options.target.has_value() != options.range.has_value()) {
     return fail(ErrorKind::usage, "--target and --range belong together");
   }
-  TIDEMARK_TRY(check(options.drive, false));
+  TIDEMARK_TRY(check(shown_drive(options), false));
   TIDEMARK_TRY(check_tent(options.drive, options.target.has_value(), options.range.has_value()));
   if (options.view == "doubt" && !options.drive.examples) {
     return fail(ErrorKind::usage, "--view doubt needs --speed examples");
@@ -222,8 +222,8 @@ bool has_surface(const RenderOptions& options) {
 
 std::vector<std::string> inputs_of(const RenderOptions& options) {
   std::vector<std::string> inputs = inputs_of(options.drive);
-  for (const std::string& input : {options.study.path, options.mask, options.phi, options.recipe,
-                                   options.labels, options.transfer_function}) {
+  for (const std::string& input :
+       {options.mask, options.phi, options.recipe, options.labels, options.transfer_function}) {
     if (!input.empty()) inputs.push_back(input);
   }
   return inputs;
@@ -232,6 +232,11 @@ std::vector<std::string> inputs_of(const RenderOptions& options) {
 bool has_speed(const RenderOptions& options) {
   return (options.target && options.range) || !options.drive.uses_tent();
 }
+
+DriveOptions shown_drive(const RenderOptions& options) {
+  return options.recipe.empty() ? options.drive : options.drive.without_unused_files();
+}
+
 Result<Views> views_of(const RenderOptions& options) {
   TIDEMARK_TRY(check(options));
   const auto size = parse_size(options.size);

@@ -60,12 +60,15 @@ struct Views {
 
 bool has_surface(const RenderOptions& options);
 bool has_speed(const RenderOptions& options);
+// What drives the surface in the views. A recipe has a drive of its own, which --image and --speed-image may
+// be for alone.
+[[nodiscard]] DriveOptions shown_drive(const RenderOptions& options);
 
 // Checks all options, also those that the chosen view does not use. Fails (ErrorKind::usage, or
 // ErrorKind::input for an error in a file of a transfer function).
 Result<Views> views_of(const RenderOptions& options);
 
-// The files that are read.
+// The files and folders that are read beside the study.
 [[nodiscard]] std::vector<std::string> inputs_of(const RenderOptions& options);
 
 // Without --out.

@@ -9,6 +9,7 @@
 #include "app/cli/study_input.h"
 #include "document/checksum.h"
 #include "imaging/load_study.h"
+#include "solver/host/host_executor.h"
 
 namespace tidemark::cli {
 namespace {
@@ -31,15 +32,10 @@ struct ReplayArguments {
   DriveOptions images;
 };
 
-Status check(const ReplayArguments& arguments, ResultWriter& writer) {
-  TIDEMARK_TRY(check(arguments.solver));
-  TIDEMARK_TRY(writer.prepare());
+std::vector<std::string> inputs_of(const ReplayArguments& arguments) {
   std::vector<std::string> inputs = inputs_of(arguments.images);
-  inputs.insert(inputs.end(), {arguments.recipe, arguments.study.path});
-  for (const std::string& input : inputs) {
-    TIDEMARK_TRY(writer.spare(input));
-  }
-  return {};
+  inputs.push_back(arguments.recipe);
+  return inputs;
 }
 
 // The outcome of a replay, with the figures of segment.
@@ -69,9 +65,11 @@ RunResults results_of(const document::Recipe& recipe, const Volume& volume, cons
 Status run_replay(Program& program, const ReplayArguments& arguments) {
   Console& console = program.console;
   ResultWriter writer(arguments.results, console);
-  TIDEMARK_TRY(check(arguments, writer));
+  TIDEMARK_TRY(check(arguments.solver));
+  TIDEMARK_TRY(writer.prepare());
   auto recipe = document::Recipe::load(arguments.recipe);
   if (!recipe) return pass_on(recipe);
+  TIDEMARK_TRY(writer.spare(arguments.study, inputs_of(arguments), recipe->source.policy));
   auto study = load_study(arguments.study, console.progress(), recipe->source.policy);
   if (!study) return pass_on(study);
   auto volume = std::make_shared<const Volume>(std::move(study->volume));
@@ -83,6 +81,8 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   const document::EvolutionOptions options{arguments.solver.kind, arguments.solver.executor_options()};
   auto evolution = document::evolve(*recipe, volume, options, console.progress());
   if (!evolution) {
+    // What the environment asks for is no fault of the recipe's.
+    TIDEMARK_TRY(solver::HostExecutor::chosen_kernels());
     // Arguments of ours were in order: what does not fit is the recipe.
     Error error = evolution.error();
     if (error.kind == ErrorKind::usage) error.kind = ErrorKind::input;
@@ -91,7 +91,6 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   }
   RunResults results = results_of(*recipe, *volume, study->series.uid, std::move(*evolution), arguments);
   results.dicom_files = imaging::dicom_files_of(study->series);
-  results.oriented = study->series.oriented;
   if (writer.wants_recipe()) results.recipe.source.checksum = document::checksum_of(*volume);
   volume.reset();
   TIDEMARK_TRY(writer.write(results));

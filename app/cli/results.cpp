@@ -103,6 +103,12 @@ Status ResultWriter::prepare() {
   return {};
 }
 
+Status ResultWriter::spare(const StudyInput& study, const std::vector<std::string>& inputs,
+                           const imaging::GridPolicy& otherwise) const {
+  TIDEMARK_TRY(spare_study(outputs_, study, console_.progress(), otherwise));
+  return spare_inputs(outputs_, inputs, console_.progress());
+}
+
 bool ResultWriter::wants_recipe() const {
   return !options_.recipe.empty() ||
          std::any_of(options_.out.begin(), options_.out.end(),
@@ -231,7 +237,7 @@ Result<renderer::Picture> ResultWriter::draw(const RunResults& results) {
   renderer::SheetView view;
   view.position_mm = renderer::middle_of(results.phi);
   view.window = renderer::window_of(*results.source);
-  view.sides_are_known = results.oriented;
+  view.sides_are_known = results.source->geometry.oriented;
   view.speed = true;
   view.volume.camera.azimuth = 30.0;
   view.volume.camera.elevation = 20.0;
@@ -242,8 +248,7 @@ Result<renderer::Picture> ResultWriter::draw(const RunResults& results) {
 
 Status ResultWriter::write(RunResults& results) {
   TIDEMARK_TRY(stage(results));
-  if (console_.interrupted()) return cancelled_error();
-  TIDEMARK_TRY(outputs_.commit());
+  TIDEMARK_TRY(outputs_.commit(console_.progress()));
   say(console_, results.figures);
   for (const std::string& file : options_.out) console_.say("Wrote      {}", file);
   for (const std::string& file : {options_.out_phi, options_.out_speed, options_.rtstruct, options_.picture,

@@ -10,6 +10,7 @@
 #include "app/cli/outputs.h"
 #include "app/cli/renderer_option.h"
 #include "app/cli/report.h"
+#include "app/cli/study_input.h"
 #include "document/evolution.h"
 #include "imaging/results/results.h"
 #include "imaging/series.h"
@@ -30,8 +31,7 @@ struct RunResults {
   std::shared_ptr<const Volume> source;            // as the solver saw it
   std::vector<std::filesystem::path> dicom_files;  // that it was read from, in slice order; empty: not DICOM
   std::shared_ptr<const imaging::StudyArchive> archive;  // in which they lie, if they do
-  bool oriented = true;  // the study's files say how its axes lie in the patient
-  std::shared_ptr<const solver::SpeedFunction> speed;  // at the end; null: the tent
+  std::shared_ptr<const solver::SpeedFunction> speed;    // at the end; null: the tent
   solver::Field phi;
   RunFigures figures;
   document::Recipe recipe;
@@ -46,7 +46,9 @@ class ResultWriter {
 
   // All checks that are possible before the long work: names, folders, whether pictures can be drawn.
   Status prepare();
-  [[nodiscard]] Status spare(const std::string& input) const { return outputs_.spare(input); }
+  // Fails as spare_study() and spare_inputs() do.
+  [[nodiscard]] Status spare(const StudyInput& study, const std::vector<std::string>& inputs,
+                             const imaging::GridPolicy& otherwise = {}) const;
   [[nodiscard]] bool wants_recipe() const;
 
   // Writes all files, or none, and prints their names. The results' source is given up on the way: files of

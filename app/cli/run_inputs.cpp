@@ -48,7 +48,6 @@ Status Inputs::load() {
   if (!study) return pass_on(study);
   results_.dicom_files = imaging::dicom_files_of(study->series);
   results_.archive = study->series.archive;
-  results_.oriented = study->series.oriented;
   Result<Volume> volume = std::move(study->volume);
   TIDEMARK_TRY(check_inside(options_.start, volume->geometry));
   RunFigures& figures = results_.figures;

@@ -114,8 +114,7 @@ Result<Scene> make_scene(const RenderOptions& options, Views views, Console& con
   if (!chosen) return pass_on(chosen);
   auto loaded = load_study(options.study, console.progress(), otherwise);
   if (!loaded) return pass_on(loaded);
-  Scene scene{std::make_shared<const Volume>(std::move(loaded->volume)), loaded->series.oriented,
-              std::move(views), nullptr};
+  Scene scene{std::make_shared<const Volume>(std::move(loaded->volume)), std::move(views), nullptr};
   auto surface = surface_of(options, *scene.source, console);
   if (!surface) return pass_on(surface);
   const auto phi = std::make_shared<const solver::Field>(std::move(*surface));
@@ -127,7 +126,7 @@ Result<Scene> make_scene(const RenderOptions& options, Views views, Console& con
   TIDEMARK_TRY(scene.renderer->set_phi(phi, {}));
   const solver::Parameters& parameters = scene.views.parameters;
   scene.renderer->set_parameters(parameters);
-  TIDEMARK_TRY(show_drive(*scene.renderer, options.drive, scene.source, parameters, *phi, console));
+  TIDEMARK_TRY(show_drive(*scene.renderer, shown_drive(options), scene.source, parameters, *phi, console));
   if (!options.labels.empty()) {
     const auto labels = load_labels(options.labels, scene.source->geometry, console);
     if (!labels) return pass_on(labels);
@@ -142,16 +141,18 @@ Result<renderer::Picture> draw(Scene& scene, const RenderOptions& options, const
   renderer::Renderer& renderer = *scene.renderer;
   const Views& views = scene.views;
   const renderer::PictureSize size = views.size;
+  const bool is_oriented = scene.source->geometry.oriented;
   if (options.view == "sheet") {
-    const renderer::SheetView sheet{views.slice.position_mm, views.slice.window, scene.oriented,
-                                    has_speed(options),      views.slice.term,   views.volume};
+    const renderer::SheetView sheet{views.slice.position_mm, views.slice.window, is_oriented,
+                                    has_speed(options),      views.slice.term,   views.slice.nearest,
+                                    views.slice.contours,    views.volume};
     return renderer::draw_sheet(renderer, sheet, size, progress);
   }
   if (options.view == "3d") {
-    return options.annotate ? renderer::draw_annotated(renderer, views.volume, size, scene.oriented, progress)
+    return options.annotate ? renderer::draw_annotated(renderer, views.volume, size, is_oriented, progress)
                             : renderer::draw_still(renderer, views.volume, size, progress);
   }
-  return options.annotate ? renderer::draw_annotated(renderer, views.slice, size, scene.oriented, progress)
+  return options.annotate ? renderer::draw_annotated(renderer, views.slice, size, is_oriented, progress)
                           : renderer.draw(views.slice, size, progress);
 }
 

@@ -13,7 +13,6 @@ namespace tidemark::cli {
 
 struct Scene {
   std::shared_ptr<const Volume> source;
-  bool oriented;  // the study's files say how its axes lie in the patient
   Views views;
   std::unique_ptr<renderer::Renderer> renderer;
 };

@@ -55,9 +55,7 @@ class Segmentation {
 Status Segmentation::run() {
   TIDEMARK_TRY(check(options_));
   TIDEMARK_TRY(writer_.prepare());
-  for (const std::string& input : inputs_of(options_)) {
-    TIDEMARK_TRY(writer_.spare(input));
-  }
+  TIDEMARK_TRY(writer_.spare(options_.study, inputs_of(options_)));
   auto truth = read_inputs(options_, writer_.wants_recipe(), console_, results_);
   if (!truth) return pass_on(truth);
   truth_ = std::move(*truth);

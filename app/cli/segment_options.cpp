@@ -148,11 +148,10 @@ Status check(const SegmentOptions& options) {
 }
 
 std::vector<std::string> inputs_of(const SegmentOptions& options) {
-  std::vector<std::string> inputs{options.study.path};
+  std::vector<std::string> inputs = inputs_of(options.drive);
   for (const auto& input : {options.start.mask, options.start.phi, options.truth}) {
     if (input) inputs.push_back(*input);
   }
-  for (const std::string& input : inputs_of(options.drive)) inputs.push_back(input);
   return inputs;
 }
 

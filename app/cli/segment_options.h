@@ -41,12 +41,12 @@ struct SegmentOptions {
 };
 
 void add_segment_options(CLI::App& app, SegmentOptions& options);
-// The same without the choice of an executor, and without results: of commands with many runs.
+// The same without the choice of an executor, levels and results: of commands with many runs.
 void add_sweep_options(CLI::App& app, SegmentOptions& options);
 
 // All checks that need no file, but for the results.
 Status check(const SegmentOptions& options);
-// The files that are read.
+// The files and folders that are read beside the study.
 [[nodiscard]] std::vector<std::string> inputs_of(const SegmentOptions& options);
 
 }  // namespace tidemark::cli

@@ -1,6 +1,12 @@
 #include "app/cli/study_input.h"
 
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
 #include "app/cli/arguments.h"
+#include "app/cli/outputs.h"
+#include "core/files_below.h"
 
 namespace tidemark::cli {
 
@@ -58,6 +64,32 @@ Result<imaging::LoadedSeries> load_study(const StudyInput& study, const Progress
   auto volume = imaging::load_series(*chosen, progress);
   if (!volume) return pass_on(volume);
   return imaging::LoadedSeries{std::move(chosen->series), std::move(*volume)};
+}
+
+Status spare_study(const Outputs& outputs, const StudyInput& study, const Progress& progress,
+                   const imaging::GridPolicy& otherwise) {
+  TIDEMARK_TRY(outputs.spare(study.path));
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(study.path, ignored)) return {};
+  const auto inside = files_below(study.path, progress, {.recursive = true, .skip_denied = true});
+  if (!inside) return pass_on(inside);
+  const bool holds_none = std::all_of(inside->begin(), inside->end(),
+                                      [&](const auto& file) { return outputs.spare(file).has_value(); });
+  if (holds_none) return {};
+  const auto chosen = find_study(study, progress, otherwise);
+  if (!chosen) return pass_on(chosen);
+  for (const std::filesystem::path& file : chosen->series.files) TIDEMARK_TRY(outputs.spare(file));
+  return {};
+}
+
+Status spare_inputs(const Outputs& outputs, const std::vector<std::string>& inputs,
+                    const Progress& progress) {
+  StudyInput input;
+  for (const std::string& path : inputs) {
+    input.path = path;
+    TIDEMARK_TRY(spare_study(outputs, input, progress));
+  }
+  return {};
 }
 
 }  // namespace tidemark::cli

@@ -4,11 +4,14 @@
 #include <CLI/App.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
 #include "imaging/load_study.h"
 
 namespace tidemark::cli {
+
+class Outputs;
 
 struct StudyInput {
   std::string path;
@@ -33,5 +36,12 @@ Result<imaging::ChosenSeries> find_study(const StudyInput& study, const Progress
                                          const imaging::GridPolicy& otherwise = {});
 Result<imaging::LoadedSeries> load_study(const StudyInput& study, const Progress& progress,
                                          const imaging::GridPolicy& otherwise = {});
+
+// Fails (ErrorKind::usage) when an announced file is the study, or a file that load_study() reads of a
+// folder: inputs are never written to. Headers are read only where the folder holds an announced file.
+Status spare_study(const Outputs& outputs, const StudyInput& study, const Progress& progress,
+                   const imaging::GridPolicy& otherwise = {});
+// The same of files and folders that are read beside the study, each as a study of its own.
+Status spare_inputs(const Outputs& outputs, const std::vector<std::string>& inputs, const Progress& progress);
 
 }  // namespace tidemark::cli

@@ -20,7 +20,10 @@ constexpr CommandHelp kSweep{
     "at once. Writes DIR/sweep.csv, a line a run with volume, outcome and Dice, and DIR/sweep.png: a slice "
     "of\n"
     "every run in a matrix, and the share of runs that have a voxel inside. The same options with one\n"
-    "combination give the same voxels with segment --executor host. An interrupted run writes nothing.",
+    "combination give the same voxels with segment --executor host. All runs have one start: --init-speed "
+    "takes\n"
+    "no axis that changes the speed, --auto-start none over target or range. An interrupted run writes "
+    "nothing.",
     "  tidemark-cli sweep brain/ --target 800 --seed 90,110,80,5 --over alpha=0.2:0.9:6 --over "
     "range=30:120:6 "
     "\\\n"
@@ -91,9 +94,26 @@ class SweepCommand {
   std::optional<Mask> truth_;
 };
 
+// All runs have one start: no axis may change what it is made from.
+Status check_start(const SegmentOptions& options, const std::vector<document::SweepAxis>& axes) {
+  for (const document::SweepAxis& axis : axes) {
+    const bool is_of_tent = axis.parameter == "target" || axis.parameter == "range";
+    const bool is_of_speed = is_of_tent || document::is_of_speed(axis.parameter);
+    const char* const option = options.start.speed && is_of_speed ? "--init-speed"
+                               : options.auto_start && is_of_tent ? "--auto-start"
+                                                                  : nullptr;
+    if (option == nullptr) continue;
+    return fail(ErrorKind::usage,
+                "--over {}: the start that {} makes depends on it, and all runs of a sweep have one start",
+                axis.parameter, option);
+  }
+  return {};
+}
+
 Status SweepCommand::run() {
   TIDEMARK_TRY(read_axes());
   TIDEMARK_TRY(check(options_));
+  TIDEMARK_TRY(check_start(options_, axes_));
   TIDEMARK_TRY(prepare());
   auto truth = read_inputs(options_, false, console_, inputs_);
   if (!truth) return pass_on(truth);
@@ -126,10 +146,8 @@ Status SweepCommand::prepare() {
   TIDEMARK_TRY(folder_.make());
   TIDEMARK_TRY(outputs_.announce_csv("--out", table_));
   TIDEMARK_TRY(outputs_.announce_png("--out", picture_));
-  for (const std::string& input : inputs_of(options_)) {
-    TIDEMARK_TRY(outputs_.spare(input));
-  }
-  return {};
+  TIDEMARK_TRY(spare_study(outputs_, options_.study, console_.progress()));
+  return spare_inputs(outputs_, inputs_of(options_), console_.progress());
 }
 
 Result<document::Sweep> SweepCommand::compute() {
@@ -161,8 +179,7 @@ Status SweepCommand::write(const document::Sweep& sweep) {
   TIDEMARK_TRY(outputs_.stage(picture_, [&](const std::filesystem::path& file) {
     return imaging::write_png_file(picture.width, picture.height, picture.pixels, file);
   }));
-  if (console_.interrupted()) return cancelled_error();
-  return outputs_.commit();
+  return outputs_.commit(console_.progress());
 }
 
 void SweepCommand::say(const document::Sweep& sweep, double seconds) {

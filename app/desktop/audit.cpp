@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "engine/background_job.h"
 #include "imaging/audit/audit_log.h"
 
 namespace tidemark::desktop {
@@ -21,6 +22,7 @@ Status Audit::begin() {
 }
 
 Audit::~Audit() {
+  if (log_) engine::BackgroundJob::finish_all(std::chrono::seconds(5));
   imaging::set_audit_sink(nullptr);
   if (log_) log_->finish(std::chrono::seconds(1));
 }

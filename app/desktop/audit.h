@@ -18,7 +18,9 @@ class Audit {
   // Gets a sentence for the user, on the thread of the user interface: messages wait, or are lost.
   using Tell = std::function<void(const Error& notice)>;
   explicit Audit(Tell tell) : tell_(std::move(tell)) {}
-  ~Audit();  // waits at most a second for the deliveries; the rest waits for the next start
+  // Waits at most 5 s for jobs of the background: what they still write is audited, too. Then it waits at
+  // most a second for the deliveries; the rest waits for the next start.
+  ~Audit();
   Audit(const Audit&) = delete;
   Audit& operator=(const Audit&) = delete;
 

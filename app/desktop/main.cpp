@@ -166,5 +166,7 @@ int main(int argc, char** argv) {
   window.session_reader().offer_rescued();
   for (const QString& study : parser.positionalArguments()) window.open(study);
   if (parser.isSet(phantom)) window.open_phantom(parser.value(phantom));
-  return QApplication::exec();
+  const int code = QApplication::exec();
+  desktop.reset();  // what it still reads is given up; what it writes is waited for, and audited
+  return code;
 }

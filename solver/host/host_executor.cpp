@@ -35,12 +35,18 @@ void fill_rows(float* page, Rows rows, float value) {
 
 }  // namespace
 
-Result<std::unique_ptr<Executor>> HostExecutor::create(std::shared_ptr<const Volume> source,
-                                                       const Parameters& parameters,
-                                                       const ExecutorOptions& options) {
+Result<PageKernels> HostExecutor::chosen_kernels() {
   const char* chosen = std::getenv("TIDEMARK_SIMD");
   auto kernels = select_page_kernels(chosen != nullptr ? chosen : "");
   if (!kernels) return fail(kernels.error().kind, "TIDEMARK_SIMD: {}", kernels.error().message);
+  return kernels;
+}
+
+Result<std::unique_ptr<Executor>> HostExecutor::create(std::shared_ptr<const Volume> source,
+                                                       const Parameters& parameters,
+                                                       const ExecutorOptions& options) {
+  auto kernels = chosen_kernels();
+  if (!kernels) return pass_on(kernels);
   std::unique_ptr<HostExecutor> executor(
       new HostExecutor(std::move(source), parameters, options, std::move(*kernels)));
   return executor;

@@ -18,7 +18,11 @@ namespace tidemark::solver {
 // the codes that the pages wrote.
 class HostExecutor final : public ExecutorBase {
  public:
-  // The instruction set is the widest one, or the one that $TIDEMARK_SIMD names.
+  // The kernels of the widest instruction set, or of the one that $TIDEMARK_SIMD names. Fails as
+  // select_page_kernels() does, naming the variable.
+  static Result<PageKernels> chosen_kernels();
+
+  // With the chosen kernels.
   static Result<std::unique_ptr<Executor>> create(std::shared_ptr<const Volume> source,
                                                   const Parameters& parameters,
                                                   const ExecutorOptions& options);

@@ -1,5 +1,6 @@
 // The audit messages of commands, as a site's collector gets them.
 #include <QTest>
+#include <algorithm>
 #include <chrono>
 
 #include "core/atomic_file.h"
@@ -204,6 +205,15 @@ class CliAuditTest : public QObject {
     codes.sort();
     QCOMPARE(codes.join(' '), QString("110100 110100 110103 110103 110106 110106"));
     for (const std::string& message : messages) QCOMPARE(outcome_in(message), QString("0"));
+    // By the names that they have in the end.
+    for (const char* name : {"a", "b"}) {
+      const std::string place = "file://" + (user / "cohort/cases" / name).string();
+      const auto names_it = [&](const std::string& message) {
+        return codes_in({message}) == "110106" && message.find(place) != std::string::npos;
+      };
+      QCOMPARE(std::count_if(messages.begin(), messages.end(), names_it), std::ptrdiff_t{1});
+      QVERIFY(std::filesystem::is_directory(user / "cohort/cases" / name));
+    }
   }
 
   void nothing_is_written_where_nothing_is_wanted() {

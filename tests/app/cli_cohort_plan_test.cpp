@@ -38,6 +38,7 @@ class CliCohortPlanTest : public QObject {
   void a_plan_that_fails_half_way_leaves_no_part_of_it();
   void recipes_of_rows_lose_nothing_unsaid();
   void a_case_says_that_the_spacing_is_not_its_recipes();
+  void the_next_command_is_one_for_a_shell();
   void impossible_options_are_refused_before_the_search_data();
   void impossible_options_are_refused_before_the_search();
   void options_replace_the_values_of_a_cohort();
@@ -144,6 +145,19 @@ void CliCohortPlanTest::a_case_says_that_the_spacing_is_not_its_recipes() {
   QVERIFY2(remarks.contains("a spacing of 1 x 1 x 1 mm, the volume has 2 x 2 x 2"), remarks);
   QVERIFY(!remarks_of(folder / "out", "own").contains("spacing"));
   QVERIFY(!remarks_of(folder / "out", "same").contains("spacing"));
+}
+
+void CliCohortPlanTest::the_next_command_is_one_for_a_shell() {
+  const TemporaryFolder folder;
+  for (const auto& [name, word] : {std::pair("livers-2", "livers-2"), {"my livers", "'my livers'"}}) {
+    RunOptions here;
+    here.folder = text(folder.path());
+    const Outcome outcome = must_run(QStringList{"cohort", "plan", text(studies_.path()), "--seed-mm", kSeed,
+                                                 "--steps", "2", "--out", name} +
+                                         kParameters,
+                                     here);
+    QVERIFY2(outcome.out.contains(QByteArray("tidemark-cli cohort run ") + word + "\n"), outcome.told());
+  }
 }
 
 void CliCohortPlanTest::impossible_options_are_refused_before_the_search_data() {

@@ -63,6 +63,7 @@ class CliCohortTest : public QObject {
   void initTestCase() { write_balls(studies_ / "in"); }
   void a_cohort_has_the_masks_of_segment_to_the_last_bit();
   void a_broken_case_and_an_endless_one_stop_no_other();
+  void a_wrong_environment_is_no_fault_of_a_case();
   void a_killed_run_goes_on_where_it_was();
   void a_terminated_run_gives_its_cases_back_data();
   void a_terminated_run_gives_its_cases_back();
@@ -145,7 +146,7 @@ void CliCohortTest::a_broken_case_and_an_endless_one_stop_no_other() {
                          .toStdString()));
   const auto out = folder / "cohort";
   must_run({"cohort", "plan", text(folder / "list.csv"), "--out", text(out)});
-  const QStringList run{"cohort", "run", text(out), "--timeout", "1", "--jobs", "2", "--json"};
+  const QStringList run{"cohort", "run", text(out), "--timeout", "8", "--jobs", "2", "--json"};
   const QJsonObject tally = json_of(must_run(run).out);
   QCOMPARE(tally["done"].toInt(), 1);
   QCOMPARE(tally["refused"].toInt(), 1);
@@ -154,7 +155,7 @@ void CliCohortTest::a_broken_case_and_an_endless_one_stop_no_other() {
   QCOMPARE(status["outcome"].toString(), QString("refused"));
   QVERIFY2(status["reason"].toString().contains("broken.nii.gz"), qPrintable(status["reason"].toString()));
   QCOMPARE(names_in(out / "cases" / "endless"), QStringList{"status.json"});
-  const Outcome strict = run_cli({"cohort", "run", text(out), "--timeout", "1", "--retry", "--strict"});
+  const Outcome strict = run_cli({"cohort", "run", text(out), "--timeout", "8", "--retry", "--strict"});
   QCOMPARE(strict.code, 3);
   QCOMPARE(status_of(out, "broken")["attempt"].toInt(), 2);
   // What an earlier run has not done counts too; of another shard it does not.
@@ -163,6 +164,23 @@ void CliCohortTest::a_broken_case_and_an_endless_one_stop_no_other() {
   QVERIFY2(nothing_new.code == 3 && nothing_new.err.contains("2 cases have no result"), nothing_new.told());
   QCOMPARE(must_run(again + QStringList{"--shard", "3/3"}).code, 0);
   must_run({"cohort", "report", text(out)});
+}
+
+void CliCohortTest::a_wrong_environment_is_no_fault_of_a_case() {
+  const TemporaryFolder folder;
+  const auto out = folder / "cohort";
+  plan(out, {"--match", "ball01.nii.gz"});
+  const QStringList run{"cohort", "run", text(out), "--json"};
+  RunOptions other_set;
+  other_set.environment.insert("TIDEMARK_SIMD", "mmx");
+  const Outcome refused = run_cli(run, other_set);
+  QVERIFY2(refused.failed_in_one_line(2), refused.told());
+  QVERIFY2(refused.err.contains("TIDEMARK_SIMD: unknown instruction set 'mmx'"), refused.told());
+  QVERIFY(names_in(out / "cases").isEmpty());
+  // Such a case needs no temporary files.
+  RunOptions no_folder;
+  no_folder.environment.insert("TMPDIR", text(folder / "absent"));
+  QCOMPARE(json_of(must_run(run, no_folder).out)["done"].toInt(), 1);
 }
 
 void CliCohortTest::a_killed_run_goes_on_where_it_was() {
@@ -208,7 +226,10 @@ void CliCohortTest::a_terminated_run_gives_its_cases_back() {
   const auto out = folder / "cohort";
   plan(out, {"--steps", "900000000"});
   QProcess process;
-  process.setChildProcessModifier([] { ::setpgid(0, 0); });
+  process.setChildProcessModifier([] {
+    ::setpgid(0, 0);
+    ::signal(SIGINT, SIG_DFL);  // a script may ignore it for tests in the background
+  });
   process.start(cli_program(), {"cohort", "run", text(out), "--jobs", "2"});
   QTRY_COMPARE_WITH_TIMEOUT(count_in(out / "staging"), 2, 20000);
   const auto leader = static_cast<pid_t>(process.processId());
@@ -322,6 +343,26 @@ void CliCohortTest::derivatives_take_the_place_of_nothing_but_derivatives() {
                            folder / "notes/thesis.txt"}) {
     QVERIFY2(std::filesystem::exists(file), file.c_str());
   }
+  // What others have added stays, and so do masks of other studies.
+  const auto derivatives = raw / "derivatives";
+  const QStringList again{"cohort", "report", text(out), "--bids", text(derivatives)};
+  must_run(again);
+  for (const char* name : {"fmriprep/x", "sub-01/anat/sub-01_label-liver_mask.nii.gz"}) {
+    const auto added = derivatives / name;
+    std::filesystem::create_directories(added.parent_path());
+    QVERIFY(write_file(added, "x"));
+    const Outcome outcome = run_cli(again);
+    QVERIFY2(outcome.failed_in_one_line(2), outcome.told().constData());
+    QCOMPARE(bytes_of(added), QByteArray("x"));
+    std::filesystem::remove(added);
+    std::filesystem::remove(derivatives / "fmriprep");
+  }
+  must_run(again);
+  const QByteArray description = bytes_of(derivatives / "dataset_description.json");
+  QVERIFY(write_file(derivatives / "dataset_description.json",
+                     QByteArray(description).replace("file://", "file:///other").toStdString()));
+  QCOMPARE(run_cli(again).code, 2);
+  QVERIFY(std::filesystem::exists(derivatives / "sub-01/anat/sub-01_desc-tidemarkT1w_mask.nii.gz"));
   // A new folder, an empty one, and twice the same.
   std::filesystem::create_directory(folder / "empty");
   for (const auto& target : {folder / "empty", folder / "empty", raw / "derivatives/tidemark"}) {
@@ -352,6 +393,7 @@ void CliCohortTest::wrong_usage_ends_with_2_and_one_line_data() {
   QTest::newRow("no cohort") << QStringList{"run", here} << 3;
   QTest::newRow("shard") << QStringList{"run", here, "--shard", "3/2"} << 2;
   QTest::newRow("jobs") << QStringList{"run", here, "--jobs", "0"} << 2;
+  QTest::newRow("memory") << QStringList{"run", here, "--memory", "9000000000000"} << 2;
   QTest::newRow("scheduler") << QStringList{"submit", here} << 2;
   QTest::newRow("injection") << QStringList{"submit", here, "--slurm", "--partition", "a\nrm"} << 2;
   QTest::newRow("no folder") << QStringList{"plan", "/no/such/folder", "--out", "/tmp/x"} << 3;

@@ -93,6 +93,17 @@ class CliDeidentifyTest : public QObject {
     QVERIFY(list.contains("PatientName,replaced\r\n"));
   }
 
+  void files_that_may_not_be_opened_are_named() {
+    std::filesystem::permissions(files_[1], std::filesystem::perms::none);
+    const Outcome outcome =
+        run_cli({"deidentify", in("series"), "--out", in("out"), "--json"}, {.is_privileged = false});
+    QVERIFY2(outcome.code == 3, outcome.told());
+    QVERIFY2(outcome.err.contains("slice-00002.dcm: was left out: cannot be read: Permission denied"),
+             outcome.told());
+    QVERIFY2(outcome.err.contains("1 of 3 files were left out"), outcome.told());
+    QCOMPARE(json_of(outcome.out)["files"].toInt(), 2);
+  }
+
   void risky_images_end_with_3_and_the_others_are_written() {
     set_text(files_[1], 0x0028, 0x0301, "YES");
     const Outcome outcome = deidentify({"--json"});

@@ -44,6 +44,7 @@ class CliFilesTest : public QObject {
   void formats_keep_values_and_geometry();
   void a_mask_becomes_a_surface();
   void a_runs_picture_shows_its_own_speed();
+  void slices_of_a_sheet_are_drawn_as_they_are_asked_for();
   void pictures_claim_no_sides_that_nobody_knows();
   void pictures_are_drawn_from_masks_and_fields_data();
   void pictures_are_drawn_from_masks_and_fields();
@@ -131,6 +132,26 @@ void CliFilesTest::a_runs_picture_shows_its_own_speed() {
   const QByteArray of_tent = picture({});
   QVERIFY(of_tent == picture({"--speed", "tent"}));
   QVERIFY(of_tent != picture({"--speed", "tent", "--speed", "edges"}));
+}
+
+void CliFilesTest::slices_of_a_sheet_are_drawn_as_they_are_asked_for() {
+  const TemporaryFolder folder;
+  const Volume volume = ball(Index3(32), 10.0);
+  QCOMPARE(failure(imaging::write_volume_file(volume, folder / "ball.nrrd")), QString());
+  QCOMPARE(failure(imaging::write_mask_file(ball_mask(volume), folder / "mask.nrrd")), QString());
+  const auto sheet = [&](const QStringList& more) {
+    const auto to = folder / "sheet.png";
+    must_run(QStringList{"render", text(folder / "ball.nrrd"), "--mask", text(folder / "mask.nrrd"), "--view",
+                         "sheet", "--size", "150x100", "--renderer", "host", "--out", text(to)} +
+             more);
+    return bytes_of(to);
+  };
+  const QByteArray plain = sheet({});
+  QVERIFY(plain.size() > 300 && sheet({}) == plain);
+  const QByteArray nearest = sheet({"--nearest"});
+  const QByteArray contours = sheet({"--contours"});
+  QVERIFY(nearest != plain);
+  QVERIFY(contours != plain && contours != nearest);
 }
 
 // Of one volume in two files, of which one says where the patient's sides are.

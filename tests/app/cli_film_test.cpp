@@ -1,9 +1,12 @@
 // Films of an evolution and of a turn, on the command line.
 #include <gif_lib.h>
 
+#include <QJsonDocument>
 #include <array>
 
+#include "core/atomic_file.h"
 #include "tests/app/cli_runner.h"
+#include "tests/app/speed_files.h"
 #include "tests/support/test_program.h"
 
 namespace tidemark::test::cli_film_test {
@@ -63,12 +66,14 @@ class CliFilmTest : public QObject {
   Q_OBJECT
 
   std::unique_ptr<SphereStudy> study_;
+  std::unique_ptr<SpeedFiles> files_;
   QString series_;
   QString recipe_;
 
  private slots:
   void initTestCase() {
     study_ = std::make_unique<SphereStudy>();
+    files_ = std::make_unique<SpeedFiles>();
     series_ = text(*study_ / "series");
     recipe_ = text(*study_ / "recipe.json");
     must_run(study_->arguments() + QStringList{"--out", text(*study_ / "mask.nrrd"), "--recipe", recipe_});
@@ -89,6 +94,69 @@ class CliFilmTest : public QObject {
     const double first = yellow_pixels(film.pictures.front());
     const double last = yellow_pixels(film.pictures.back());
     QVERIFY2(first > 20.0 && last > 1.4 * first, qPrintable(QString("%1 %2").arg(first).arg(last)));
+  }
+
+  void as_many_pictures_as_are_asked_for_data() {
+    QTest::addColumn<int>("steps");
+    QTest::addColumn<QStringList>("frames");
+    QTest::addColumn<int>("pictures");
+    QTest::newRow("by default") << 117 << QStringList{} << 60;
+    QTest::newRow("as many as there may be") << 3997 << QStringList{"--frames", "2000"} << 2000;
+    QTest::newRow("fewer, or there were too many") << 2500 << QStringList{"--frames", "2000"} << 1251;
+  }
+  void as_many_pictures_as_are_asked_for() {
+    QFETCH(int, steps);
+    QFETCH(QStringList, frames);
+    QFETCH(int, pictures);
+    const QString volume = text(*files_ / "ball.nrrd");
+    const auto recipe = *files_ / "steps.json";
+    must_run({"segment", volume, "--target", "1000", "--range", "500", "--alpha", "0.8", "--seed",
+              "15,15,15,4", "--steps", "1", "--executor", "host", "--recipe", text(recipe)});
+    QJsonObject longer = json_of(bytes_of(recipe));
+    longer["steps"] = steps;
+    QVERIFY(write_file(recipe, QJsonDocument(longer).toJson().toStdString()));
+    const Outcome outcome = must_run(QStringList{"film", volume, "--recipe", text(recipe), "--view", "axial",
+                                                 "--at", "15,15,15", "--size", "16x16", "--renderer", "host",
+                                                 "--json", "--out", text(*files_ / "steps.gif")} +
+                                     frames);
+    QCOMPARE(json_of(outcome.out)["frames"].toInt(), pictures);
+  }
+
+  void what_a_recipe_needs_beside_its_volume_is_given_data() {
+    QTest::addColumn<QString>("volume");
+    QTest::addColumn<QStringList>("speed");
+    QTest::addColumn<QStringList>("needed");
+    QTest::addColumn<QStringList>("view");
+    const auto file = [&](const char* name) { return text(*files_ / name); };
+    const QStringList map{"--speed-image", file("map.nii.gz")};
+    const QStringList by_map{"--speed", "image"};
+    const QStringList by_examples{"--speed", "examples", "--examples", file("labels.nii.gz")};
+    const QStringList images{"--image", file("second.nrrd"), "--image", file("third.nrrd")};
+    const QStringList slice{"--view", "axial"};
+    QTest::newRow("map") << file("ball.nrrd") << by_map << map << slice;
+    QTest::newRow("images") << file("textures.nii.gz") << by_examples << images << slice;
+    QTest::newRow("map that is seen, too")
+        << file("ball.nrrd") << by_map << map << QStringList{"--view", "speed"} + by_map;
+  }
+  void what_a_recipe_needs_beside_its_volume_is_given() {
+    QFETCH(QString, volume);
+    QFETCH(QStringList, speed);
+    QFETCH(QStringList, needed);
+    QFETCH(QStringList, view);
+    const QString recipe = text(*files_ / "needs.json");
+    must_run(QStringList{"segment", volume, "--alpha", "0.7", "--seed", "15,15,15,4", "--steps", "4",
+                         "--executor", "host", "--recipe", recipe} +
+             speed + needed);
+    const auto film = *files_ / "needs.gif";
+    const QStringList command = QStringList{"film",   volume,  "--recipe",   recipe, "--at",  "15,15,15",
+                                            "--size", "64x64", "--renderer", "host", "--out", text(film)} +
+                                view;
+    const Outcome without = run_cli(command);
+    QVERIFY2(without.failed_in_one_line(2) && without.err.contains(needed.first().toUtf8()), without.told());
+    QVERIFY(!std::filesystem::exists(film));
+    must_run(command + needed);
+    QCOMPARE(film_in(text(film)).pictures.size(), std::size_t{5});
+    std::filesystem::remove(film);
   }
 
   void the_camera_goes_around() {

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <QElapsedTimer>
+#include <algorithm>
+#include <random>
 
 #include "core/atomic_file.h"
 #include "imaging/files/volume_file.h"
@@ -36,11 +38,16 @@ class CliInterruptTest : public QObject {
   void an_interrupted_segmentation_writes_nothing();
   void what_cannot_be_asked_to_stop_ends_within_a_second_data();
   void what_cannot_be_asked_to_stop_ends_within_a_second();
+  void an_interrupted_write_of_a_volume_is_told();
+  void a_signal_that_was_ignored_before_stays_ignored();
   void every_command_ends_within_a_second_data();
   void every_command_ends_within_a_second();
+  void what_takes_hours_ends_by_itself_data();
+  void what_takes_hours_ends_by_itself();
 
  private:
   [[nodiscard]] QString endless_recipe(const TemporaryFolder& folder) const;
+  [[nodiscard]] QStringList filled_in(QStringList arguments, const TemporaryFolder& folder) const;
 
   SphereStudy sphere_;
 };
@@ -62,6 +69,7 @@ void CliInterruptTest::an_interrupted_segmentation_writes_nothing() {
   std::filesystem::create_directory(out);
   QCOMPARE(failure(imaging::write_volume_file(ball(Index3(48), 16.0), folder / "ball.nrrd")), QString());
   QProcess process;
+  set_ignored_signals(process, {});
   const QStringList arguments{"segment",
                               text(folder / "ball.nrrd"),
                               "--steps",
@@ -108,6 +116,7 @@ void CliInterruptTest::what_cannot_be_asked_to_stop_ends_within_a_second() {
   const int reader = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
   QVERIFY(reader >= 0);
   QProcess process;
+  set_ignored_signals(process, {});
   process.setStandardOutputFile(text(pipe));
   process.start(cli_program(), {"info", text(folder / "study")});
   QVERIFY(process.waitForStarted());
@@ -124,6 +133,53 @@ void CliInterruptTest::what_cannot_be_asked_to_stop_ends_within_a_second() {
   QCOMPARE(process.exitCode(), 130);
   QCOMPARE(process.readAllStandardError(), QByteArray("tidemark-cli: error: interrupted\n"));
   QVERIFY2(took < 1000, qPrintable(QString::number(took)));
+}
+
+// Noise, which takes long to compress, and nothing stops it half way.
+void CliInterruptTest::an_interrupted_write_of_a_volume_is_told() {
+  TemporaryFolder folder;
+  const auto out = folder / "out";
+  std::filesystem::create_directory(out);
+  Volume noise;
+  noise.geometry.size = Index3(256);
+  std::vector<std::int16_t> voxels(static_cast<std::size_t>(noise.geometry.voxel_count()));
+  std::minstd_rand random;
+  std::generate(voxels.begin(), voxels.end(), [&] { return static_cast<std::int16_t>(random()); });
+  noise.voxels = std::move(voxels);
+  QCOMPARE(failure(imaging::write_volume_file(noise, folder / "noise.nii")), QString());
+  QProcess process;
+  process.start(cli_program(), {"convert", text(folder / "noise.nii"), "--out", text(out / "noise.nii.gz")});
+  QVERIFY(process.waitForStarted());
+  const auto begun = [&] {
+    const QStringList names = names_in(out);
+    return std::any_of(names.begin(), names.end(), [&](const QString& name) {
+      std::error_code gone;
+      const auto size = std::filesystem::file_size(out / name.toStdString(), gone);
+      return !gone && size > 0;
+    });
+  };
+  for (int wait = 0; wait < 60'000 && !begun(); ++wait) QTest::qSleep(1);
+  QCOMPARE(::kill(static_cast<pid_t>(process.processId()), SIGTERM), 0);
+  QVERIFY(process.waitForFinished(60'000));
+  QCOMPARE(process.exitCode(), 130);
+  QCOMPARE(process.readAllStandardError(), QByteArray("tidemark-cli: error: interrupted\n"));
+  QCOMPARE(names_in(out), QStringList());
+}
+
+void CliInterruptTest::a_signal_that_was_ignored_before_stays_ignored() {
+  TemporaryFolder folder;
+  QCOMPARE(failure(imaging::write_volume_file(ball(Index3(48), 16.0), folder / "ball.nrrd")), QString());
+  QProcess process;
+  set_ignored_signals(process, {SIGHUP, SIGINT});
+  const QStringList arguments{
+      "segment", text(folder / "ball.nrrd"), "--steps", "900000000", "--no-skip", "--executor", "host"};
+  QVERIFY(start_cli(process, arguments + ball_arguments(Index3(48)), "Start "));
+  const auto id = static_cast<pid_t>(process.processId());
+  for (const int signal : {SIGHUP, SIGINT}) QCOMPARE(::kill(id, signal), 0);
+  QVERIFY(!process.waitForFinished(1000));  // what is asked to stop ends sooner
+  QCOMPARE(::kill(id, SIGTERM), 0);
+  QVERIFY(process.waitForFinished(60'000));
+  QCOMPARE(process.exitCode(), 130);
 }
 
 void CliInterruptTest::every_command_ends_within_a_second_data() {
@@ -154,17 +210,23 @@ QString CliInterruptTest::endless_recipe(const TemporaryFolder& folder) const {
   return text(file);
 }
 
+// Arguments with the names of files, of which those in OUT are to be written.
+QStringList CliInterruptTest::filled_in(QStringList arguments, const TemporaryFolder& folder) const {
+  std::filesystem::create_directory(folder / "out");
+  for (QString& word : arguments) {
+    word.replace("SERIES", text(sphere_ / "series"));
+    word.replace("MASK", text(sphere_ / "truth.nii.gz"));
+    word.replace("OUT", text(folder / "out"));
+    if (word == "RECIPE") word = endless_recipe(folder);
+  }
+  return arguments;
+}
+
 void CliInterruptTest::every_command_ends_within_a_second() {
   QFETCH(QStringList, arguments);
   TemporaryFolder folder;
   const auto out = folder / "out";
-  std::filesystem::create_directory(out);
-  for (QString& word : arguments) {
-    word.replace("SERIES", text(sphere_ / "series"));
-    word.replace("MASK", text(sphere_ / "truth.nii.gz"));
-    word.replace("OUT", text(out));
-    if (word == "RECIPE") word = endless_recipe(folder);
-  }
+  arguments = filled_in(arguments, folder);
   // At whatever it is doing then.
   for (const int milliseconds : {0, 30, 150, 1000}) {
     QProcess process;
@@ -184,6 +246,47 @@ void CliInterruptTest::every_command_ends_within_a_second() {
     QVERIFY2(process.exitCode() == 130 || process.exitCode() == 0, said.constData());
     for (const QString& name : names_in(out)) QVERIFY2(!name.startsWith('.'), qPrintable(name));
   }
+}
+
+void CliInterruptTest::what_takes_hours_ends_by_itself_data() {
+  QTest::addColumn<QStringList>("arguments");
+  QTest::addColumn<QByteArray>("line");
+  const QStringList endless{"--steps", "900000000", "--no-skip"};
+  QTest::newRow("segment") << sphere_.arguments() + endless + QStringList{"--out", "OUT/mask.nii.gz"}
+                           << QByteArray("Start ");
+  QTest::newRow("sweep") << QStringList{"sweep"} + sphere_.arguments().mid(1) + endless +
+                                QStringList{"--over", "alpha=0.3:0.9:3", "--out", "OUT/sweep"}
+                         << QByteArray("Start ");
+  QTest::newRow("replay") << QStringList{"replay",    "RECIPE", "SERIES", "--no-skip",
+                                         "--threads", "1",      "--out",  "OUT/mask.nii.gz"}
+                          << QByteArray("Recipe ");
+}
+
+// Its end is audited, which who is ended by force has no time for.
+void CliInterruptTest::what_takes_hours_ends_by_itself() {
+  QFETCH(const QStringList, arguments);
+  QFETCH(const QByteArray, line);
+  TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "config" / "tidemark");
+  QVERIFY(write_file(folder / "config" / "tidemark" / "audit.json", R"({"file": "audit.log"})"));
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert("XDG_CONFIG_HOME", text(folder / "config"));
+  environment.insert("XDG_STATE_HOME", text(folder / "state"));
+  environment.insert("TIDEMARK_SITE", text(folder / "site"));
+  QProcess process;
+  process.setProcessEnvironment(environment);
+  QVERIFY(start_cli(process, filled_in(arguments, folder), line));
+  QTest::qWait(100);
+  QCOMPARE(::kill(static_cast<pid_t>(process.processId()), SIGTERM), 0);
+  QVERIFY(process.waitForFinished(60'000));
+  QCOMPARE(process.exitCode(), 130);
+  // It has been delivered, or waits for it.
+  QByteArray messages = bytes_of(folder / "config" / "tidemark" / "audit.log");
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "state", none)) {
+    if (entry.is_regular_file()) messages += bytes_of(entry.path());
+  }
+  QVERIFY2(messages.contains("\"110121\""), messages.constData());
 }
 
 TIDEMARK_TEST(CliInterruptTest)

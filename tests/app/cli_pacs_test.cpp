@@ -144,6 +144,20 @@ class CliPacsTest : public QObject {
     QCOMPARE(names_in(folder.path()), QStringList{"pacs.json"});
   }
 
+  void files_that_may_not_be_opened_are_named() {
+    const TemporaryFolder folder;
+    const QString file = servers(folder, ScriptedPeer([](PeerEnd&) {}).server());
+    std::filesystem::create_directory(folder / "series");
+    QVERIFY(write_file(folder / "series/closed.dcm", "x"));
+    std::filesystem::permissions(folder / "series/closed.dcm", std::filesystem::perms::none);
+    const Outcome outcome = run_cli({"pacs", "send", "peer", text(folder / "series"), "--servers", file},
+                                    {.is_privileged = false});
+    QVERIFY2(outcome.code == 3, outcome.told());
+    QVERIFY2(outcome.err.contains("closed.dcm: was not sent: cannot be read: Permission denied"),
+             outcome.told());
+    QVERIFY2(outcome.err.contains("1 of 1 files were not sent"), outcome.told());
+  }
+
   void the_usual_file_of_servers_is_taken() {
     const TemporaryFolder folder;
     RunOptions options;

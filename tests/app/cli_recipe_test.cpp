@@ -156,6 +156,17 @@ class CliRecipeTest : public QObject {
     QVERIFY(!std::filesystem::exists(folder_ / "never.nrrd"));
   }
 
+  void a_wrong_instruction_set_is_no_fault_of_the_recipe() {
+    const QString recipe = make_recipe({});
+    RunOptions options;
+    options.environment.insert("TIDEMARK_SIMD", "mmx");
+    const Outcome outcome = run_cli({"replay", recipe, text(folder_ / "ball.nrrd"), "--executor", "host",
+                                     "--out", text(folder_ / "never.nrrd")},
+                                    options);
+    QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
+    QVERIFY2(outcome.err.startsWith("tidemark-cli: error: TIDEMARK_SIMD: "), outcome.told());
+  }
+
  private:
   // A recipe of a short run on the ball.
   QString make_recipe(const QStringList& start) {

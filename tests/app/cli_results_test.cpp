@@ -2,13 +2,16 @@
 #include <signal.h>
 
 #include <QJsonArray>
+#include <algorithm>
 #include <memory>
 
 #include "imaging/dicom/dicom.h"
+#include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/load_study.h"
 #include "imaging/results/results.h"
 #include "tests/app/cli_runner.h"
+#include "tests/app/folder_events.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -28,6 +31,7 @@ class CliResultsTest : public QObject {
   void wrong_usage_is_told_data();
   void wrong_usage_is_told();
   void a_study_is_never_written_to();
+  void what_is_read_of_a_folder_is_never_written_to();
   void a_full_disk_keeps_the_older_results_data();
   void a_full_disk_keeps_the_older_results();
   void a_kill_leaves_the_old_file_or_the_new_one();
@@ -232,6 +236,45 @@ void CliResultsTest::a_study_is_never_written_to() {
            onto_grid.told());
 }
 
+// What else lies there is replaced.
+void CliResultsTest::what_is_read_of_a_folder_is_never_written_to() {
+  for (const char* name : {"study", "masks", "pictures"}) std::filesystem::create_directory(*folder_ / name);
+  const auto ct = *folder_ / "study/ct.nrrd";
+  const auto mask = *folder_ / "masks/mask.nrrd";
+  const auto picture = *folder_ / "pictures/a.png";
+  const auto recipe = path("recipe.json");
+  const Volume volume = ball(Index3(24), 8.0);
+  QCOMPARE(failure(imaging::write_volume_file(volume, ct)), QString());
+  QCOMPARE(failure(imaging::write_mask_file(ball_mask(volume), mask)), QString());
+  std::vector<std::uint8_t> pixels(4 * 16 * 16);
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint8_t>(i);
+  QCOMPARE(failure(imaging::write_png_file(16, 16, pixels, picture)), QString());
+  const QStringList segment =
+      QStringList{"segment", path("study"), "--steps", "2"} + ball_arguments(Index3(24));
+  must_run(segment + QStringList{"--recipe", recipe});
+  const std::filesystem::path inputs[] = {ct, mask, picture};
+  QList<QByteArray> before;
+  for (const auto& input : inputs) before.append(bytes_of(input));
+  for (const QStringList& command :
+       {segment + QStringList{"--out", text(ct)},
+        segment + QStringList{"--init", path("masks"), "--out", text(mask)},
+        {"replay", recipe, path("study"), "--out", text(ct)},
+        {"convert", path("study"), "--out", text(ct)},
+        {"convert", text(mask), "--source", path("study"), "--out", text(ct)},
+        {"distance", path("masks"), "--out", text(mask)},
+        {"compare", path("masks"), path("masks"), "--staple", text(mask)},
+        {"ai", "segment", "main", path("study"), "--model", "any", "--out", text(ct)},
+        {"render", path("pictures"), "--view", "axial", "--out", text(picture)}}) {
+    const Outcome outcome = run_cli(command);
+    QVERIFY2(outcome.failed_in_one_line(2) && outcome.err.contains("read and written at once"),
+             outcome.told());
+  }
+  for (qsizetype n = 0; n < before.size(); ++n) QCOMPARE(bytes_of(inputs[n]), before[n]);
+  const QString result = text(*folder_ / "study/mask.nrrd");
+  for (int turn = 0; turn < 2; ++turn) QCOMPARE(must_run(segment + QStringList{"--out", result}).code, 0);
+  QCOMPARE(bytes_of(ct), before[0]);
+}
+
 void CliResultsTest::a_full_disk_keeps_the_older_results_data() {
   QTest::addColumn<qint64>("room");
   for (const qint64 room : {0, 100, 1000, 4000}) QTest::newRow(qPrintable(QString::number(room))) << room;
@@ -273,13 +316,24 @@ void CliResultsTest::a_kill_leaves_the_old_file_or_the_new_one() {
   QByteArray set = bytes_of(*folder_ / "set.dcm");
   int killed = 0;
   for (int delay = 0; delay < 2000; delay += 40) {
+    FolderEvents written(folder_->path(), IN_MODIFY);
+    const auto has_begun = [&] {
+      const QStringList names = written.by_name().keys();
+      return std::any_of(names.begin(), names.end(),
+                         [](const QString& name) { return name.startsWith(".tidemark-"); });
+    };
     QProcess process;
     process.start(cli_program(), command);
     QVERIFY(process.waitForStarted());
-    if (process.waitForFinished(delay)) break;  // it is too fast for more
-    ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
-    QVERIFY(process.waitForFinished());
-    ++killed;
+    bool ended = false;
+    while (!ended && !has_begun()) ended = process.waitForFinished(1);
+    if (ended || process.waitForFinished(delay)) {
+      if (killed > 0) break;  // it is too fast for more
+    } else {
+      ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
+      QVERIFY(process.waitForFinished());
+      ++killed;
+    }
     // As it was, or whole: another file with other UIDs.
     for (auto& [name, before] : {std::pair<const char*, QByteArray&>{"seg.dcm", seg}, {"set.dcm", set}}) {
       const QByteArray now = bytes_of(*folder_ / name);

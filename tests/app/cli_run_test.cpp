@@ -19,6 +19,7 @@ class CliRunTest : public QObject {
   void what_has_become_of_the_surface_is_said_data();
   void what_has_become_of_the_surface_is_said();
   void a_range_that_is_too_narrow_is_told();
+  void the_next_command_is_one_for_a_shell();
   void figures_name_the_series_that_was_found();
   void host_and_reference_agree();
   void each_term_can_be_switched_off();
@@ -180,6 +181,26 @@ void CliRunTest::a_range_that_is_too_narrow_is_told() {
   QVERIFY2(told.out.contains("Hint ") && told.out.contains("--range 16.5; try "), told.told());
   const double wider = json_of(must_run(narrow + QStringList{"--json"}).out)["wider_range"].toDouble();
   QVERIFY2(wider > 30.0 && wider < 110.0, qPrintable(QString::number(wider)));
+}
+
+void CliRunTest::the_next_command_is_one_for_a_shell() {
+  TemporaryFolder folder;
+  RunOptions here;
+  here.folder = text(folder.path());
+  const QByteArray said = must_run({"phantom", "sphere", "--out", "anna's study"}, here).out;
+  const auto next = said.indexOf("Next       ");
+  QVERIFY2(next >= 0, said);
+  const QString command = QString::fromUtf8(said.mid(next + 11)).trimmed() + " --steps 1";
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  const std::filesystem::path program = cli_program().toStdString();
+  environment.insert("PATH", text(program.parent_path()) + ":" + environment.value("PATH"));
+  QProcess shell;
+  shell.setProcessEnvironment(environment);
+  shell.setWorkingDirectory(here.folder);
+  shell.start("sh", {"-c", command});
+  QVERIFY(shell.waitForFinished(60'000));
+  QVERIFY2(shell.exitCode() == 0, shell.readAllStandardError());
+  QVERIFY(std::filesystem::exists(folder / "anna's study" / "mask.nii.gz"));
 }
 
 void CliRunTest::figures_name_the_series_that_was_found() {

@@ -1,5 +1,6 @@
 #include "tests/app/cli_runner.h"
 
+#include <signal.h>
 #include <sys/resource.h>
 
 #include <QDir>
@@ -7,8 +8,11 @@
 #include <QFile>
 #include <QJsonArray>
 #include <QJsonDocument>
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "tests/support/child_process.h"
 
 namespace tidemark::test {
 namespace {
@@ -34,10 +38,11 @@ Outcome run_cli(const QStringList& arguments, const RunOptions& options) {
   QProcess process;
   process.setProcessEnvironment(options.environment);
   if (!options.folder.isEmpty()) process.setWorkingDirectory(options.folder);
-  if (options.largest_file >= 0) {
-    process.setChildProcessModifier([limit = options.largest_file] {
+  if (options.largest_file >= 0 || !options.is_privileged) {
+    process.setChildProcessModifier([limit = options.largest_file, is_privileged = options.is_privileged] {
       const rlimit bytes{static_cast<rlim_t>(limit), static_cast<rlim_t>(limit)};
-      setrlimit(RLIMIT_FSIZE, &bytes);
+      if (limit >= 0) setrlimit(RLIMIT_FSIZE, &bytes);
+      if (!is_privileged) give_up_privileges();
     });
   }
   process.start(cli_program(), arguments);
@@ -51,8 +56,20 @@ Outcome run_cli(const QStringList& arguments, const RunOptions& options) {
 
 Outcome must_run(const QStringList& arguments, const RunOptions& options) {
   Outcome outcome = run_cli(arguments, options);
-  if (outcome.code != 0) qWarning("%s", outcome.told().constData());
+  if (outcome.code == 0) return outcome;
+  // Members of a test class are made before there is a test that could fail.
+  if (!QTest::currentTestFunction()) qFatal("%s", outcome.told().constData());
+  QTest::qFail(outcome.told().constData(), __FILE__, __LINE__);
   return outcome;
+}
+
+void set_ignored_signals(QProcess& process, const std::vector<int>& ignored) {
+  process.setChildProcessModifier([ignored] {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      const bool is_ignored = std::find(ignored.begin(), ignored.end(), signal) != ignored.end();
+      ::signal(signal, is_ignored ? SIG_IGN : SIG_DFL);
+    }
+  });
 }
 
 bool start_cli(QProcess& process, const QStringList& arguments, const QByteArray& line) {

@@ -6,6 +6,7 @@
 #include <QStringList>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/volume.h"
 #include "tests/support/support.h"
@@ -24,8 +25,9 @@ struct Outcome {
 
 struct RunOptions {
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-  qint64 largest_file = -1;  // bytes that any file may grow to, as on a full disk; -1: no limit
-  QString folder;            // to run in
+  qint64 largest_file = -1;   // bytes that any file may grow to, as on a full disk; -1: no limit
+  QString folder = {};        // to run in
+  bool is_privileged = true;  // where root runs it; else permissions of files hold for root, too
 };
 
 // The path of the program that was built.
@@ -34,8 +36,12 @@ QString cli_program();
 // Runs to the end.
 Outcome run_cli(const QStringList& arguments, const RunOptions& options = {});
 
-// The same for a command that should succeed; else its output is shown.
+// The same for a command that must succeed; else the test fails and shows its output.
 Outcome must_run(const QStringList& arguments, const RunOptions& options = {});
+
+// Of SIGINT, SIGTERM and SIGHUP the program that is to be started ignores these, and no others: whoever runs
+// the tests may ignore some, as nohup does, or a script for its jobs in the background.
+void set_ignored_signals(QProcess& process, const std::vector<int>& ignored);
 
 // Starts it and returns once `line` has appeared on standard output.
 bool start_cli(QProcess& process, const QStringList& arguments, const QByteArray& line);

@@ -12,6 +12,7 @@ class CliSurroundingsTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void a_terminal_gets_a_progress_bar_data();
   void a_terminal_gets_a_progress_bar();
   void a_german_locale_changes_nothing();
 
@@ -20,19 +21,36 @@ class CliSurroundingsTest : public QObject {
   const SphereStudy sphere_;
 };
 
+void CliSurroundingsTest::a_terminal_gets_a_progress_bar_data() {
+  QTest::addColumn<QStringList>("arguments");
+  QTest::addColumn<QByteArray>("work");
+  QTest::newRow("steps") << sphere_.arguments() + QStringList{"--steps", "20"} << QByteArray(" % ");
+  // It is drawn while it is written.
+  QTest::newRow("a film") << QStringList{"film",       text(sphere_ / "series"),
+                                         "--mask",     text(sphere_ / "truth.nii.gz"),
+                                         "--turn",     "90",
+                                         "--frames",   "24",
+                                         "--size",     "200x150",
+                                         "--renderer", "host",
+                                         "--out",      text(folder_ / "turn.gif")}
+                          << QByteArray(" % drawing");
+}
+
 // util-linux' script gives the program a terminal.
 void CliSurroundingsTest::a_terminal_gets_a_progress_bar() {
+  QFETCH(QStringList, arguments);
+  QFETCH(QByteArray, work);
   // A machine may have no pseudo-terminals, as in a root folder without /dev/pts.
   const int terminal = ::posix_openpt(O_RDWR);
   if (terminal < 0) QSKIP("NOT TESTED: this machine has no pseudo-terminals (/dev/pts)");
   ::close(terminal);
   QProcess script;
-  const QStringList command = QStringList{cli_program()} + sphere_.arguments() + QStringList{"--steps", "20"};
+  const QStringList command = QStringList{cli_program()} + arguments;
   script.start("script", {"-qec", command.join(' '), "/dev/null"});
   QVERIFY2(script.waitForFinished(60'000), "script is needed (Debian: package bsdutils)");
   const QByteArray seen = script.readAllStandardOutput();
   QCOMPARE(script.exitCode(), 0);
-  QVERIFY2(seen.contains(" % ") && seen.contains("[....") && seen.contains("\033[K"), seen);
+  QVERIFY2(seen.contains(work) && seen.contains("[....") && seen.contains("\033[K"), seen);
 }
 
 // The locale is made here: machines have few of them installed.

@@ -18,6 +18,9 @@ class CliSweepTest : public QObject {
   void a_folder_that_is_there_keeps_its_files();
   void wrong_usage_ends_with_2_and_one_line_data();
   void wrong_usage_ends_with_2_and_one_line();
+  void an_axis_that_the_start_depends_on_is_refused_data();
+  void an_axis_that_the_start_depends_on_is_refused();
+  void a_start_by_the_speed_is_that_of_segment();
   void too_little_memory_ends_with_4();
 
  private:
@@ -109,6 +112,48 @@ void CliSweepTest::wrong_usage_ends_with_2_and_one_line() {
   QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
   QVERIFY2(outcome.err.contains(message.toUtf8()), outcome.told());
   QVERIFY(!std::filesystem::exists(folder_ / "none"));
+}
+
+void CliSweepTest::an_axis_that_the_start_depends_on_is_refused_data() {
+  QTest::addColumn<QStringList>("arguments");
+  QTest::addColumn<QString>("message");
+  QTest::newRow("range") << QStringList{"--init-speed", "--over", "range=50:150:3"}
+                         << "--over range: the start that --init-speed makes";
+  QTest::newRow("the second") << QStringList{"--init-speed", "--over", "alpha=0.5:0.9:2", "--over",
+                                             "target=600:900:2"}
+                              << "--over target: the start that --init-speed makes";
+  QTest::newRow("a function's")
+      << QStringList{"--init-speed",           "--speed", "tent", "--speed", "edges", "--over",
+                     "edges.balloon=0.3:0.9:2"}
+      << "--over edges.balloon: the start that --init-speed makes";
+  QTest::newRow("chosen") << QStringList{"--auto-start", "--over", "target=600:900:2"}
+                          << "--over target: the start that --auto-start makes";
+}
+
+void CliSweepTest::an_axis_that_the_start_depends_on_is_refused() {
+  QFETCH(QStringList, arguments);
+  QFETCH(QString, message);
+  const Outcome outcome =
+      run_cli(sweep() + arguments + QStringList{"--steps", "0", "--out", text(folder_ / "none")});
+  QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
+  QVERIFY2(outcome.err.contains(message.toUtf8()), outcome.told());
+  QVERIFY(!std::filesystem::exists(folder_ / "none"));
+}
+
+void CliSweepTest::a_start_by_the_speed_is_that_of_segment() {
+  const QStringList start{"--init-speed", "--steps", "0", "--json"};
+  const QJsonArray runs =
+      json_of(must_run(sweep() + start +
+                       QStringList{"--over", "alpha=0.5:0.9:2", "--out", text(folder_ / "by-speed")})
+                  .out)["runs"]
+          .toArray();
+  const QJsonObject alone =
+      json_of(must_run(sphere_.arguments() + start + QStringList{"--executor", "host"}).out);
+  QCOMPARE(runs.size(), 2);
+  QVERIFY(alone["voxels_inside"].toInt() > 1000);
+  for (const QJsonValue run : runs) {
+    QCOMPARE(run.toObject()["voxels_inside"].toInt(), alone["voxels_inside"].toInt());
+  }
 }
 
 void CliSweepTest::too_little_memory_ends_with_4() {

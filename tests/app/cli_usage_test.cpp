@@ -17,11 +17,15 @@ class CliUsageTest : public QObject {
   void help_names_units_and_an_example();
   void help_says_how_a_series_is_named_data();
   void help_says_how_a_series_is_named();
+  void commands_of_one_name_have_help_of_their_own();
   void help_hides_what_is_not_built();
   void the_version_is_told();
   void wrong_usage_ends_with_2_and_one_line_data();
   void wrong_usage_ends_with_2_and_one_line();
   void an_unknown_option_is_named();
+  void an_empty_value_is_named_data();
+  void an_empty_value_is_named();
+  void a_text_with_a_default_can_be_emptied();
   void a_seed_outside_the_volume_is_named();
   void an_eraser_that_takes_all_leaves_an_empty_start();
   void negative_coordinates_are_numbers_not_options();
@@ -69,6 +73,15 @@ void CliUsageTest::help_says_how_a_series_is_named() {
   QVERIFY2(help.out.contains("--series UID[#N]"), help.told());
   QVERIFY2(help.out.contains("UID#N is the N-th"), help.told());
   QVERIFY2(help.out.contains("DICOMDIR") && help.out.contains("zip archive"), help.told());
+}
+
+void CliUsageTest::commands_of_one_name_have_help_of_their_own() {
+  const QByteArray surface = "Segments INPUT: a surface starts at seeds";
+  const QByteArray model = "Sends INPUT to a server";
+  const Outcome plain = run_cli({"segment", "--help"});
+  QVERIFY2(plain.out.contains(surface) && !plain.out.contains(model), plain.told());
+  const Outcome ai = run_cli({"ai", "segment", "--help"});
+  QVERIFY2(ai.out.contains(model) && !ai.out.contains(surface), ai.told());
 }
 
 void CliUsageTest::help_hides_what_is_not_built() {
@@ -185,6 +198,34 @@ void CliUsageTest::an_unknown_option_is_named() {
   const Outcome outcome = run_cli({"segment", volume_, "--targt", "800"});
   QCOMPARE(outcome.err,
            QByteArray("tidemark-cli: error: unknown option --targt (see tidemark-cli segment --help)\n"));
+}
+
+void CliUsageTest::an_empty_value_is_named_data() {
+  QTest::addColumn<QStringList>("arguments");
+  const QStringList segment = QStringList{"segment", volume_, "--steps", "0"} + ball_arguments(Index3(24));
+  for (const char* option : {"--walls", "--truth", "--stats", "--out-phi", "--rtstruct", "--series"}) {
+    QTest::newRow(option) << segment + QStringList{option, ""};
+  }
+  QTest::newRow("--source") << QStringList{"convert",  volume_, "--out", text(folder_ / "c.nrrd"),
+                                           "--source", ""};
+  QTest::newRow("--key") << QStringList{"deidentify", volume_, "--out", text(folder_ / "anonymous"),
+                                        "--key",      ""};
+  QTest::newRow("INPUT") << QStringList{"segment", ""};
+}
+
+// A script makes one of a variable that is not set.
+void CliUsageTest::an_empty_value_is_named() {
+  QFETCH(QStringList, arguments);
+  const QByteArray option = QTest::currentDataTag();
+  const Outcome outcome = run_cli(arguments);
+  QVERIFY2(outcome.failed_in_one_line(2), outcome.told());
+  QVERIFY2(outcome.err.startsWith("tidemark-cli: error: " + option + ": the value is empty"), outcome.told());
+  QCOMPARE(names_in(folder_.path()), QStringList{"ball.nrrd"});
+}
+
+void CliUsageTest::a_text_with_a_default_can_be_emptied() {
+  const Outcome outcome = run_cli({"measure", volume_, volume_, "--note", ""});
+  QVERIFY2(outcome.code != 2 && !outcome.err.contains("--note"), outcome.told());
 }
 
 void CliUsageTest::a_seed_outside_the_volume_is_named() {

@@ -1,5 +1,7 @@
 // core: checked sizes, geometry, files that appear whole or not at all, the thread pool.
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,8 +13,10 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/atomic_file.h"
 #include "core/checked.h"
@@ -151,11 +155,98 @@ class CoreTest : public QObject {
     QCOMPARE(files_in(folder.path()), 1);
   }
 
+  void files_that_belong_together_appear_all_or_none() {
+    const TemporaryFolder folder;
+    const auto one = folder / "one.txt";
+    const auto other = folder / "other.txt";
+    QVERIFY(write_file(one, "old") && write_file(other, "old"));
+    const auto stage = [&] {
+      std::vector<AtomicFile> files;
+      for (const auto& target : {one, other}) {
+        auto file = AtomicFile::create(target);
+        if (!file) qFatal("a file cannot be made");
+        std::ofstream(file->temporary_path()) << "new";
+        files.push_back(std::move(*file));
+      }
+      return files;
+    };
+    {
+      auto lost = stage();
+      std::filesystem::remove(lost.back().temporary_path());
+      const Status failed = AtomicFile::commit_all(lost);
+      QVERIFY(!failed);
+      QCOMPARE(failed.error().kind, ErrorKind::write);
+      QVERIFY(failed.error().message.find(other.string()) != std::string::npos);
+      auto stopped = stage();
+      std::stop_source source;
+      source.request_stop();
+      const Status cancelled = AtomicFile::commit_all(stopped, {nullptr, source.get_token()});
+      QVERIFY(!cancelled);
+      QCOMPARE(cancelled.error().kind, ErrorKind::cancelled);
+    }
+    QCOMPARE(files_in(folder.path()), 2);
+    for (const auto& target : {one, other}) QCOMPARE(contents(target), std::string("old"));
+    auto whole = stage();
+    QCOMPARE(failure(AtomicFile::commit_all(whole)), QString());
+    QCOMPARE(files_in(folder.path()), 2);
+    for (const auto& target : {one, other}) QCOMPARE(contents(target), std::string("new"));
+  }
+
   void a_folder_that_is_not_there_is_a_write_error_that_names_the_file() {
     const auto status = write_file("/nonexistent/folder/result.txt", "x");
     QVERIFY(!status);
     QCOMPARE(status.error().kind, ErrorKind::write);
     QVERIFY(status.error().message.find("/nonexistent/folder/result.txt") != std::string::npos);
+  }
+
+  void names_as_long_as_a_folder_takes_are_written_and_longer_ones_refused_at_once() {
+    const TemporaryFolder folder;
+    std::string umlauts = "x";
+    for (int n = 0; n < 124; ++n) umlauts += "\u00e4";
+    for (const std::string& stem :
+         {std::string(222, 'n'), std::string(245, 'n'), std::string(250, 'n'), umlauts}) {
+      const auto target = folder / (stem + ".nrrd");
+      auto staged = AtomicFile::create(target);
+      QCOMPARE(failure(staged), QString());
+      const QString name = QString::fromStdString(staged->temporary_path().filename().string());
+      QVERIFY2(name.endsWith(".nrrd") && !name.contains(QChar::ReplacementCharacter), qPrintable(name));
+      QCOMPARE(failure(write_file(staged->temporary_path(), "whole")), QString());
+      QCOMPARE(failure(staged->commit()), QString());
+      QCOMPARE(contents(target), std::string("whole"));
+    }
+    QVERIFY(!AtomicFile::create(folder / std::string(256, 'n')));
+    // What a killed program left is known by as much as it holds of the name.
+    const std::string series(250, 's');
+    const auto left = folder / (".tidemark-0a1b2c-" + series.substr(18));
+    std::filesystem::create_directory(left);
+    auto filled = AtomicFolder::create(folder / series);
+    QCOMPARE(failure(filled), QString());
+    QVERIFY(!std::filesystem::exists(left));
+    QCOMPARE(failure(filled->commit()), QString());
+  }
+
+  void a_link_stays_one_and_what_it_leads_to_is_replaced() {
+    const TemporaryFolder folder;
+    const auto link = folder / "link.txt";
+    std::filesystem::create_directory(folder / "elsewhere");
+    QVERIFY(write_file(folder / "elsewhere/result.txt", "first"));
+    std::filesystem::create_symlink("elsewhere/result.txt", link);
+    QCOMPARE(failure(write_file(link, "second")), QString());
+    QVERIFY(std::filesystem::is_symlink(link));
+    QCOMPARE(contents(folder / "elsewhere/result.txt"), std::string("second"));
+    QCOMPARE(files_in(folder / "elsewhere"), 1);
+    QCOMPARE(files_in(folder.path()), 2);
+  }
+
+  void a_file_has_the_permissions_of_the_one_that_it_replaces() {
+    using std::filesystem::perms;
+    const TemporaryFolder folder;
+    const auto target = folder / "result.txt";
+    QVERIFY(write_file(target, "first"));
+    std::filesystem::permissions(target, perms::owner_read | perms::owner_write);
+    QCOMPARE(failure(write_file(target, "second")), QString());
+    QCOMPARE(contents(target), std::string("second"));
+    QVERIFY(std::filesystem::status(target).permissions() == (perms::owner_read | perms::owner_write));
   }
 
   void a_folder_whose_place_cannot_be_taken_is_refused_at_once() {
@@ -248,6 +339,21 @@ class CoreTest : public QObject {
     waiting.join();
     QVERIFY(has_it);
     QVERIFY(!FileLock::wait(folder / "no/such/folder", FileLock::Missing::make, {}));
+  }
+
+  void a_lock_ends_with_its_holder_though_a_copy_of_the_process_goes_on() {
+    const TemporaryFolder folder;
+    const auto file = folder / "lock";
+    auto held = std::make_unique<FileLock>(FileLock::take(file, FileLock::Missing::make));
+    QVERIFY(*held);
+    const pid_t process = ::fork();
+    QVERIFY(process >= 0);
+    while (process == 0) ::pause();
+    held.reset();
+    const bool is_free(FileLock::take(file));
+    ::kill(process, SIGKILL);
+    ::waitpid(process, nullptr, 0);
+    QVERIFY(is_free);
   }
 
   void the_pool_does_each_index_once() {

@@ -1,10 +1,13 @@
 #include "tests/support/child_process.h"
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/inotify.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -75,6 +78,14 @@ std::string attend(pid_t child, int in, int notifier, int events) {
 }
 
 }  // namespace
+
+void give_up_privileges() {
+  __user_cap_header_struct head{_LINUX_CAPABILITY_VERSION_3, 0};
+  constexpr std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> kNone{};
+  const bool none_are_left =
+      ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::syscall(SYS_capset, &head, kNone.data()) == 0;
+  if (!none_are_left) ::_exit(2);
+}
 
 Ended run_in_child(const std::function<Status()>& work, const Disturbance& disturbance) {
   std::array<int, 2> ends{};

@@ -28,6 +28,10 @@ struct Ended {
   std::string failure;  // what the work's Status says; empty: it succeeded, or was killed
 };
 
+// From now on permissions of files hold for this process, and for programs that it becomes, though it be
+// root's. To be called in a child.
+void give_up_privileges();
+
 // Forks, so the work must not need threads that run already.
 Ended run_in_child(const std::function<Status()>& work, const Disturbance& disturbance = {});
 
