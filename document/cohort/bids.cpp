@@ -1,6 +1,7 @@
 #include "document/cohort/bids.h"
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <system_error>
 
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kVersion = "1.9.0";
 constexpr const char* kDescription = "dataset_description.json";
+constexpr const char* kReadme = "README";
 constexpr const char* kDerivative = "derivative";
 constexpr const char* kMaker = "Tidemark";
 constexpr std::size_t kLargestDescription = std::size_t{1} << 20;  // bytes
@@ -97,8 +99,8 @@ Json sidecar_of(const CaseStatus& status, const BidsOptions& options) {
   return object;
 }
 
-// A dataset that description_of() describes.
-bool is_own_dataset(const fs::path& folder) {
+// Whether the dataset is one of masks of that source.
+bool is_described_as_own(const fs::path& folder, const std::string& source) {
   const std::string file = (folder / kDescription).string();
   const auto text = read_text_file(file, kLargestDescription);
   if (!text) return false;
@@ -106,7 +108,28 @@ bool is_own_dataset(const fs::path& folder) {
   if (!document) return false;
   const JsonField root = root_of(*document, file);
   const JsonField maker = root.at("GeneratedBy").at(std::size_t{0});
-  return root.at("DatasetType").text() == kDerivative && maker.at("Name").text() == kMaker;
+  const JsonField raw = root.at("SourceDatasets").at(std::size_t{0});
+  return root.at("DatasetType").text() == kDerivative && maker.at("Name").text() == kMaker &&
+         raw.at("URL").text() == url_of(source);
+}
+
+// Whether all that is in it may be of write_bids(). Masks of others and links are not.
+bool holds_own_files_alone(const fs::path& folder) {
+  static const std::regex kFolder("sub-[^/]+(/ses-[^/]+)?(/anat)?");
+  static const std::regex kMask(
+      "sub-[^/]+(/ses-[^/]+)?/anat/[^/]+_desc-tidemark[^/_]*_mask\\.(nii\\.gz|json)");
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().lexically_relative(folder).generic_string();
+    const fs::file_type type = entry->symlink_status(error).type();
+    const bool is_own = type == fs::file_type::directory
+                            ? std::regex_match(name, kFolder)
+                            : type == fs::file_type::regular &&
+                                  (name == kDescription || name == kReadme || std::regex_match(name, kMask));
+    if (!is_own) return false;
+  }
+  return !error;
 }
 
 // A second name where the disk allows it: the masks are there once.
@@ -137,9 +160,9 @@ Status check_bids_folder(const CohortFolder& folder, const std::string& source, 
   }
   std::error_code error;
   const bool is_free = !fs::exists(to, error) || (fs::is_directory(to, error) && fs::is_empty(to, error));
-  if (is_free || is_own_dataset(to)) return {};
-  return fail(ErrorKind::usage, "{}: holds something else than masks of cohort report; name a new folder",
-              to.string());
+  if (is_free || (is_described_as_own(to, source) && holds_own_files_alone(to))) return {};
+  return fail(ErrorKind::usage,
+              "{}: holds something else than earlier masks of these studies; name a new folder", to.string());
 }
 
 Result<std::int64_t> write_bids(const CohortFolder& folder, const Review& review, const BidsOptions& options,
@@ -169,7 +192,7 @@ Result<std::int64_t> write_bids(const CohortFolder& folder, const Review& review
       ++count;
     }
     TIDEMARK_TRY(write_file(root / kDescription, json_text(description_of(options))));
-    TIDEMARK_TRY(write_file(root / "README", "Masks by Tidemark, a level-set surface. Research use only.\n"));
+    TIDEMARK_TRY(write_file(root / kReadme, "Masks by Tidemark, a level-set surface. Research use only.\n"));
   }
   TIDEMARK_TRY(sync_file_system(root));
   TIDEMARK_TRY(target->commit());

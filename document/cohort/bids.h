@@ -15,8 +15,9 @@ struct BidsOptions {
 };
 
 // Whether a dataset may be written to that folder: what is there would be lost. It is new, empty, or an
-// earlier dataset of write_bids(). It neither lies in the cohort's folder or the source, nor holds one of
-// them; but it may lie in the source's derivatives/. Fails (ErrorKind::usage).
+// earlier dataset of write_bids() of the same source, with nothing else in it. It neither lies in the
+// cohort's folder or the source, nor holds one of them; but it may lie in the source's derivatives/. Fails
+// (ErrorKind::usage).
 Status check_bids_folder(const CohortFolder& folder, const std::string& source,
                          const std::filesystem::path& to);
 

@@ -269,7 +269,8 @@ void Case::warn(const document::Evolution& evolution) {
 Status Case::write() {
   const CaseResult result{*source_, phi_, surface_, recipe_, imaging::dicom_files_of(series_), run_.threads};
   return imaging::exported(write_case_files(run_.plan, row_, result, folder_, status_, progress_),
-                           imaging::audited_study(series_), {folder_});
+                           imaging::audited_study(series_),
+                           {run_.cases.empty() ? folder_ : run_.cases / row_.id});
 }
 
 CaseOutcome outcome_of(ErrorKind kind) {
@@ -323,8 +324,9 @@ Result<CaseStatus> run_case(const CaseRun& run, const WorkRow& row, const fs::pa
 }
 
 void warm_up(const CaseRun& run) {
-  std::string name = (fs::temp_directory_path() / "tidemark-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) return;
+  std::error_code error;
+  std::string name = (fs::temp_directory_path(error) / "tidemark-XXXXXX").string();
+  if (error || ::mkdtemp(name.data()) == nullptr) return;
   const fs::path folder = name;
   const Unfinished unfinished(folder);
   {
@@ -348,8 +350,7 @@ void warm_up(const CaseRun& run) {
       if (status) static_cast<void>(status->to_text());
     }
   }
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
+  fs::remove_all(folder, error);
 }
 
 }  // namespace tidemark::cohort

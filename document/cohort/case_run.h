@@ -17,6 +17,9 @@ struct CaseRun {
   std::int64_t memory_bytes = 0;            // that the solver may take; 0: as it sees fit
   std::string program;                      // version
   imaging::PacsConfiguration servers = {};  // that cases are on
+  // Where the folder of a case is once it is complete, by its id, as the audit log names it; empty: where it
+  // is written.
+  std::filesystem::path cases = {};
 };
 
 // Computes a case by the host executor, as `segment --executor host` does, to the last bit, and writes all

@@ -1,5 +1,6 @@
 #include "document/cohort/case_status.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
@@ -15,7 +16,9 @@ namespace {
 const std::vector<std::string_view> kOutcomes{"done", "refused", "timed_out", "out_of_memory", "failed"};
 const std::vector<std::string_view> kWarnings{"vanished", "filled", "not_converged", "touches_border"};
 constexpr std::int64_t kMost = std::int64_t{1} << 53;
-constexpr std::size_t kMostRemarks = 1000;
+constexpr std::size_t kMostTexts = 1000;
+constexpr std::size_t kLongestText = 4096;                    // bytes
+constexpr std::size_t kLongestReason = std::size_t{1} << 16;  // bytes, and of all remarks together
 
 Json to_json(const CaseFigures& figures) {
   Json object{{"volume_ml", figures.volume_ml},
@@ -46,9 +49,29 @@ CaseFigures read_figures(const JsonField& field) {
 
 std::vector<std::string> read_texts(const JsonField& field) {
   std::vector<std::string> texts;
-  const std::size_t count = field.size(kMostRemarks);
-  for (std::size_t i = 0; i < count; ++i) texts.push_back(field.at(i).text());
+  const std::size_t count = field.size(kMostTexts);
+  for (std::size_t i = 0; i < count; ++i) texts.push_back(field.at(i).text(kLongestText));
   return texts;
+}
+
+// At most so many bytes, of whole characters of UTF-8.
+std::string_view beginning_of(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
+  return text.substr(0, most);
+}
+
+// As many remarks as are read.
+Json to_json(const std::vector<std::string>& remarks) {
+  Json list = Json::array();
+  std::size_t left = kLongestReason;
+  for (const std::string& remark : remarks) {
+    const std::string_view text = beginning_of(remark, std::min(kLongestText, left));
+    if (list.size() == kMostTexts || (text.empty() && !remark.empty())) break;
+    list.push_back(text);
+    left -= text.size();
+  }
+  return list;
 }
 
 }  // namespace
@@ -96,7 +119,7 @@ std::string CaseStatus::to_text() const {
               {"version", kVersion},
               {"id", id},
               {"outcome", name_of(outcome)},
-              {"reason", reason},
+              {"reason", beginning_of(reason, kLongestReason)},
               {"attempt", attempt},
               {"input", input},
               {"series", series},
@@ -108,7 +131,7 @@ std::string CaseStatus::to_text() const {
               {"seconds", seconds},
               {"peak_memory_bytes", peak_memory_bytes},
               {"warnings", Json::array()},
-              {"remarks", remarks},
+              {"remarks", to_json(remarks)},
               {"files", files}};
   for (const CaseWarning warning : warnings) object["warnings"].push_back(name_of(warning));
   if (figures) object["figures"] = to_json(*figures);
@@ -125,7 +148,7 @@ Result<CaseStatus> CaseStatus::parse(std::string_view text, const std::string& f
   CaseStatus status;
   status.id = root.at("id").text();
   status.outcome = static_cast<CaseOutcome>(root.at("outcome").word(kOutcomes));
-  status.reason = root.at("reason").text(1U << 16);
+  status.reason = root.at("reason").text(kLongestReason);
   status.attempt = root.at("attempt").integer(1, kMost);
   status.input = root.at("input").text();
   status.series = root.at("series").text();

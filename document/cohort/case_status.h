@@ -64,6 +64,7 @@ struct CaseStatus {
   std::vector<std::string> files;    // beside this one
   bool operator==(const CaseStatus&) const = default;
 
+  // A reason and remarks that are too long to be read again are cut.
   [[nodiscard]] std::string to_text() const;
   // Fails (ErrorKind::input) naming `file` and the field.
   static Result<CaseStatus> parse(std::string_view text, const std::string& file);

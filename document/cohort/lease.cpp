@@ -36,8 +36,8 @@ std::string first_line(const char* file) {
   return line;
 }
 
-// When a process began, in ticks since the machine did; empty: there is none of that number. With it a
-// process is told from a later one of the same number.
+// When a process began, in ticks since the machine did; empty: that cannot be read. With it a process is told
+// from a later one of the same number.
 std::string start_of(long process) {
   const std::string stat = first_line(fmt::format("/proc/{}/stat", process).c_str());
   const std::size_t name_end = stat.rfind(')');  // a name may hold blanks and brackets
@@ -67,7 +67,8 @@ bool holder_has_ended(const fs::path& file) {
   if (error != std::errc() || end != number.data() + number.size() || process <= 0) return false;
   if (::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) return true;
   const std::string began = text->substr(second + 1, text->find('\n', second + 1) - second - 1);
-  return start_of(process) != began;
+  const std::string now = start_of(process);  // systems may hide the processes of other users
+  return !now.empty() && now != began;
 }
 
 // The same of a draft by its name: it is empty for a moment.

@@ -87,9 +87,10 @@ Status bring_series(const imaging::PacsConfiguration& servers, const WorkRow& ro
       imaging::retrieve(*server, {row.study, row.series, folder}, servers.limits, progress);
   if (!retrieved) return pass_on(retrieved);
   // Objects that nobody asked for, or that came twice, are refused, too: they are no loss.
-  if (retrieved->missing == 0) return {};
+  if (retrieved->missing == 0 && retrieved->damaged.empty()) return {};
   std::error_code ignored;
   for (const fs::path& object : retrieved->files) fs::remove(object, ignored);
+  if (!retrieved->damaged.empty()) return fail(ErrorKind::input, "{}: {}", row.place(), retrieved->damaged);
   if (!retrieved->refused.empty()) {
     return fail(ErrorKind::input, "{}: {}", row.place(), retrieved->refused.front());
   }

@@ -82,8 +82,9 @@ std::string card_of(const CohortFolder& folder, const ReviewedCase& one, const D
     warnings += fmt::format("<b class=\"warning\">{}</b> ", words_of(warning));
   }
   const std::string id = html_text(status.id);
-  std::string card = fmt::format("<article id=\"case-{}\" data-id=\"{}\" data-outcome=\"{}\"", id, id,
-                                 name_of(status.outcome));
+  std::string card =
+      fmt::format("<article id=\"case-{}\" data-id=\"{}\" data-finished=\"{}\" data-outcome=\"{}\"", id, id,
+                  html_text(status.finished), name_of(status.outcome));
   if (const auto said = decisions.find(status.id); said != decisions.end())
     card += decision_of(*said->second);
   card += fmt::format(" tabindex=\"0\"><h2>{}</h2>", id);
@@ -175,8 +176,8 @@ PagePictures suitable_pictures(const CohortFolder& folder, const Review& review)
   return PagePictures::embed;
 }
 
-Result<std::string> report_page(const CohortFolder& folder, const Review& review, PagePictures pictures,
-                                const Progress& progress) {
+Result<std::string> report_page(const CohortFolder& folder, const CohortPlan& plan, const Review& review,
+                                PagePictures pictures, const Progress& progress) {
   Decisions decisions;
   for (const Decision& decision : review.decisions) decisions.emplace(decision.id, &decision);
   std::string cards;
@@ -192,6 +193,7 @@ Result<std::string> report_page(const CohortFolder& folder, const Review& review
   const std::string name = html_text(folder.path().filename().string());
   return filled(part("page.html"), {{"STYLE", std::string(part("page.css"))},
                                     {"SCRIPT", std::string(part("page.js"))},
+                                    {"PLAN", html_text(plan.planned + " " + plan.recipe_checksum)},
                                     {"TITLE", name},
                                     {"NAME", name},
                                     {"SUMMARY", summary_of(review)},

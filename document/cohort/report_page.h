@@ -36,10 +36,11 @@ inline constexpr std::int64_t kMostEmbedded = std::int64_t{32} << 20;
 // Cards of a page: a browser scrolls through so many. The tables have all cases.
 inline constexpr std::size_t kMostCards = 20'000;
 
-// Counts, histograms and a scatter plot, then a card a case, in the review's order. Fails with
-// ErrorKind::cancelled; a picture that cannot be read is left out.
-Result<std::string> report_page(const CohortFolder& folder, const Review& review, PagePictures pictures,
-                                const Progress& progress = {});
+// Counts, histograms and a scatter plot, then a card a case, in the review's order. A browser keeps what is
+// said there for the plan and for the result of the case. Fails with ErrorKind::cancelled; a picture that
+// cannot be read is left out.
+Result<std::string> report_page(const CohortFolder& folder, const CohortPlan& plan, const Review& review,
+                                PagePictures pictures, const Progress& progress = {});
 
 // A histogram of a figure, and area over volume, as SVG.
 [[nodiscard]] std::string histogram_svg(const Review& review, int figure);

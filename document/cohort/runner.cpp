@@ -9,6 +9,7 @@
 #include <numeric>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "core/atomic_file.h"
 #include "core/stopwatch.h"
@@ -28,7 +29,7 @@ constexpr int kLook_ms = 50;                // between looks at limits and at th
 constexpr const char* kFormer = ".former";  // behind the name of a case that is being replaced
 
 bool is_in_shard(std::size_t row, const RunOptions& options) {
-  return static_cast<std::int64_t>(row) % options.shards == options.shard - 1;
+  return options.shards == 0 || static_cast<std::int64_t>(row) % options.shards == options.shard - 1;
 }
 
 fs::path staging_folder(const fs::path& folder, const std::string& id, std::int64_t number) {
@@ -94,6 +95,8 @@ class Runner {
   void sweep();
   void choose_rows();
   Status go_on();
+  [[nodiscard]] bool is_some_left() const;
+  [[nodiscard]] bool may_start() const;
   Status start_some();
   Status try_to_start(const WorkRow& row);
   Result<Worker> start_worker();
@@ -104,7 +107,7 @@ class Runner {
   Status write_status_for(Job& job, const WorkEnd& end);
   Status publish_if_due(bool at_once);
   Status publish(Job& job);
-  void refresh_leases();
+  void look_at_leases();
   void report();
 
   const CohortFolder& folder_;
@@ -115,12 +118,13 @@ class Runner {
 
   std::vector<const WorkRow*> rows_;  // to be computed, in this run's order
   std::size_t next_ = 0;
+  std::vector<const WorkRow*> held_;                        // by other programs, and to be looked at again
   std::unordered_set<std::string> done_;                    // when the run began
   std::unordered_map<std::string, std::int64_t> attempts_;  // of cases to retry, those so far
   std::list<Job> computing_;
   std::vector<Worker> idle_;
-  std::list<Job> complete_;  // to be published
-  Stopwatch since_refresh_;
+  std::list<Job> complete_;            // to be published
+  Stopwatch since_look_;               // at leases
   std::optional<Error> out_of_reach_;  // what a case needs and cannot get now: the run begins no others
   RunTally tally_;
 };
@@ -184,13 +188,21 @@ bool Runner::is_done(const WorkRow& row) const {
 }
 
 Status Runner::try_to_start(const WorkRow& row) {
-  auto lease = Lease::take(folder_.leases(), row.id, options_.stale_after_s);
-  if (!lease) return pass_on(lease);
-  if (!*lease) {
+  if (is_done(row)) {
     ++tally_.elsewhere;
     return {};
   }
-  if (is_done(row)) {
+  auto lease = Lease::take(folder_.leases(), row.id, options_.stale_after_s);
+  if (!lease) return pass_on(lease);
+  if (!*lease) {
+    if (options_.shards > 0) {
+      held_.push_back(&row);
+    } else {
+      ++tally_.elsewhere;
+    }
+    return {};
+  }
+  if (is_done(row)) {  // meanwhile
     (*lease)->finish();
     ++tally_.elsewhere;
     return {};
@@ -224,8 +236,14 @@ Result<Worker> Runner::start_worker() {
   return Worker::start(work, options_.memory_bytes);
 }
 
+bool Runner::may_start() const {
+  return !out_of_reach_ && next_ < rows_.size() && static_cast<int>(computing_.size()) < options_.jobs;
+}
+
+// Not for long, as others may have done many rows: what computes has to be looked at.
 Status Runner::start_some() {
-  while (next_ < rows_.size() && static_cast<int>(computing_.size()) < options_.jobs) {
+  const Stopwatch watch;
+  while (may_start() && watch.seconds() < kLook_ms * 1e-3) {
     if (progress_.cancelled()) return cancelled_error();
     TIDEMARK_TRY(try_to_start(*rows_[next_++]));
   }
@@ -241,12 +259,12 @@ void Runner::end_those_over_time() {
   }
 }
 
-// Waits until a case ends, but not for long.
+// Waits until a case ends, but not for long, and not where another can be started.
 Status Runner::wait_for_some() {
   std::vector<pollfd> polled;
   for (const Job& job : computing_) polled.push_back({job.worker->descriptor(), POLLIN, 0});
-  if (polled.empty()) return {};
-  ::poll(polled.data(), polled.size(), kLook_ms);
+  if (polled.empty() && held_.empty()) return {};
+  ::poll(polled.data(), polled.size(), may_start() ? 0 : kLook_ms);
   std::size_t at = 0;
   for (auto job = computing_.begin(); job != computing_.end(); ++at) {
     const auto present = job++;
@@ -263,7 +281,7 @@ Status Runner::wait_for_some() {
   return {};
 }
 
-// The status of a case whose process could not write it.
+// The status of a case whose process has written none that can be read.
 Status Runner::write_status_for(Job& job, const WorkEnd& end) {
   CaseStatus status;
   status.outcome = job.timed_out                                           ? CaseOutcome::timed_out
@@ -302,8 +320,11 @@ Status Runner::collect(Job& job) {
     TIDEMARK_TRY(write_status_for(job, end));
   } else {
     const auto status = CaseStatus::load(job.staging.path() / "status.json");
-    if (!status) return pass_on(status);
-    job.outcome = status->outcome;
+    if (status) {
+      job.outcome = status->outcome;
+    } else {
+      TIDEMARK_TRY(write_status_for(job, {false, status.error(), false, 0}));
+    }
   }
   job.watch.restart();
   return {};
@@ -351,12 +372,16 @@ Status Runner::publish_if_due(bool at_once) {
   return {};
 }
 
-void Runner::refresh_leases() {
-  if (since_refresh_.seconds() < options_.stale_after_s / 5.0) return;
-  since_refresh_.restart();
+// Those of this run are made new. Those of others may have aged.
+void Runner::look_at_leases() {
+  if (since_look_.seconds() < options_.stale_after_s / 5.0) return;
+  since_look_.restart();
   for (const auto* jobs : {&computing_, &complete_}) {
     for (const Job& job : *jobs) job.lease.refresh();
   }
+  if (next_ < rows_.size()) return;
+  rows_ = std::exchange(held_, {});
+  next_ = 0;
 }
 
 void Runner::report() {
@@ -365,16 +390,19 @@ void Runner::report() {
   if (open > 0) progress_(static_cast<double>(ended) / static_cast<double>(open), "computing cases");
 }
 
+bool Runner::is_some_left() const {
+  const bool is_to_begin = next_ < rows_.size() || !held_.empty();
+  return (is_to_begin && !out_of_reach_) || !computing_.empty();
+}
+
 Status Runner::go_on() {
   report();
-  while ((!out_of_reach_ && next_ < rows_.size()) || !computing_.empty()) {
-    if (!out_of_reach_) {
-      TIDEMARK_TRY(start_some());
-    }
+  while (is_some_left()) {
+    TIDEMARK_TRY(start_some());
     TIDEMARK_TRY(wait_for_some());
     if (progress_.cancelled()) return cancelled_error();
     end_those_over_time();
-    refresh_leases();
+    look_at_leases();
     TIDEMARK_TRY(publish_if_due(false));
   }
   if (out_of_reach_) return tl::unexpected(*out_of_reach_);

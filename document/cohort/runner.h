@@ -11,9 +11,9 @@
 namespace tidemark::cohort {
 
 struct RunOptions {
-  int jobs = 1;            // cases at once
-  std::int64_t shard = 1;  // of `shards`: every shards-th row, from 1
-  std::int64_t shards = 1;
+  int jobs = 1;                   // cases at once
+  std::int64_t shard = 1;         // of `shards`: every shards-th row, from 1
+  std::int64_t shards = 0;        // 0: all rows, which other runs may share
   double timeout_s = 0.0;         // of a case; 0: none
   std::int64_t memory_bytes = 0;  // of a case, see Worker; 0: no limit
   bool retry = false;             // cases again that have no result, once
@@ -40,9 +40,10 @@ struct RunTally {
 [[nodiscard]] std::int64_t finished_without_result(const CohortFolder& folder, const WorkList& list,
                                                    const RunOptions& options);
 
-// A case appears in cases/ whole and synced, or not at all, and never twice. Fails with ErrorKind::cancelled
-// when it is stopped: what was begun is given back. Fails with ErrorKind::write and as compute() does, after
-// the cases that were complete have been kept.
+// A case appears in cases/ whole and synced, or not at all, and never twice. The rows of a shard are this
+// run's alone: where another program holds one, it may have been killed, and is waited for. Fails with
+// ErrorKind::cancelled when it is stopped: what was begun is given back. Fails with ErrorKind::write and as
+// compute() does, after the cases that were complete have been kept.
 Result<RunTally> run_cohort(const CohortFolder& folder, const WorkList& list, const RunOptions& options,
                             const ComputeCase& compute, const Progress& progress = {});
 

@@ -136,7 +136,7 @@ class Unpacker {
     const fs::space_info space = fs::space(folder_, error);
     if (error || total_ + kReserve <= static_cast<std::int64_t>(space.available)) return {};
     return fail(
-        ErrorKind::capability,
+        ErrorKind::write,
         "{}: unpacks to {} MB, for which {} has no room ({} MB are free); TMPDIR names another folder",
         file_.string(), total_ >> 20, folder_.parent_path().parent_path().string(), space.available >> 20);
   }
@@ -149,7 +149,7 @@ class Unpacker {
         folders_.try_emplace(within, folder_ / fmt::format("{:04}", folders_.size() + 1));
     std::error_code error;
     if (is_new && !fs::create_directory(known->second, error)) {
-      return fail(ErrorKind::capability, "{}: cannot be made: {}", known->second.string(), error.message());
+      return fail(ErrorKind::write, "{}: cannot be made: {}", known->second.string(), error.message());
     }
     const auto number = entries_[entry] - directory_->records().data() + 1;
     return known->second / fmt::format("{:06}-{}", number, harmless(name));
@@ -158,7 +158,7 @@ class Unpacker {
   Status unpack_one(std::size_t entry, const Progress& progress) {
     const auto target = target_of(entry);
     if (!target) return pass_on(target);
-    const Status no_room = fail(ErrorKind::capability, "{}: there is no room to unpack it", file_.string());
+    const Status no_room = fail(ErrorKind::write, "{}: there is no room to unpack it", file_.string());
     std::ofstream out(*target, std::ios::binary);
     Status unpacked =
         directory_->unpack(*entries_[entry], [&](std::span<const std::uint8_t> piece) -> Status {

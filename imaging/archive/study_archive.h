@@ -26,8 +26,8 @@ class StudyArchive {
 
   // Every entry becomes a file whose name is made here: of its number, and of those characters of its own
   // name that mean nothing to a file system. Archives within it are left out. Fails (ErrorKind::input) when
-  // the archive is damaged, encrypted, or would unpack to what no study is; ErrorKind::capability when there
-  // is no room for it.
+  // the archive is damaged, encrypted, or would unpack to what no study is; ErrorKind::write when there is
+  // no room for it.
   static Result<std::shared_ptr<const StudyArchive>> unpack(const std::filesystem::path& file,
                                                             const Progress& progress = {});
 

@@ -12,7 +12,7 @@
 #include "imaging/deidentify/cleaner.h"
 #include "imaging/deidentify/risk.h"
 #include "imaging/deidentify/shifted_date.h"
-#include "imaging/dicom/dicom.h"
+#include "imaging/dicom/detect.h"
 #include "imaging/dicom/dicom_setup.h"
 #include "imaging/dicom/element_text.h"
 #include "imaging/dicom/parsed_dicom.h"
@@ -99,7 +99,12 @@ class Run {
 
 Status Run::take(const fs::path& file) {
   using Kind = LeftOutFile::Kind;
-  if (!looks_like_dicom(file)) {
+  auto bytes = FileBytes::open(file);
+  if (!bytes) {
+    leave_out(file, without_path(bytes.error().message, file), Kind::unreadable);
+    return {};
+  }
+  if (!begins_as_dicom(*bytes)) {
     leave_out(file, "is no DICOM file", Kind::not_dicom);
     return {};
   }

@@ -28,7 +28,7 @@ struct LeftOutFile {
     not_dicom,
     document,    // a structured report, an encapsulated document, a voice, a DICOMDIR
     risky,       // an image that may show who it is
-    unreadable,  // damaged, or in an encoding that is not read
+    unreadable,  // it cannot be opened, is damaged, or in an encoding that is not read
   };
   std::filesystem::path file;
   std::string reason;  // one line, without the file's name

@@ -71,31 +71,34 @@ Status RetrievalFolder::grown(std::int64_t bytes) {
   return check_free_space();
 }
 
-Result<ObjectIdentity> RetrievalFolder::look_into(const fs::path& object,
-                                                  const std::optional<Announced>& announced) const {
-  auto identity = check_object(object);
-  // Without the file's name, which is only a number.
-  if (!identity) return fail(ErrorKind::input, "{}", without_path(identity.error().message, object));
-  if (!is_storage_class(identity->sop_class)) {
-    return fail(ErrorKind::input, "is of a class that was not asked for");
-  }
+std::string RetrievalFolder::objection_to(const ObjectIdentity& identity,
+                                          const std::optional<Announced>& announced) const {
+  if (!is_storage_class(identity.sop_class)) return "is of a class that was not asked for";
   if (announced &&
-      (identity->sop_class != announced->sop_class || identity->sop_instance != announced->sop_instance)) {
-    return fail(ErrorKind::input, "is another object than was announced");
+      (identity.sop_class != announced->sop_class || identity.sop_instance != announced->sop_instance)) {
+    return "is another object than was announced";
   }
-  if (identity->study != request_.study_uid) return fail(ErrorKind::input, "belongs to another study");
-  if (!request_.series_uid.empty() && identity->series != request_.series_uid) {
-    return fail(ErrorKind::input, "belongs to another series");
+  if (identity.study != request_.study_uid) return "belongs to another study";
+  if (!request_.series_uid.empty() && identity.series != request_.series_uid) {
+    return "belongs to another series";
   }
-  return identity;
+  return {};
 }
 
 bool RetrievalFolder::take(const fs::path& object, const std::optional<Announced>& announced) {
-  auto identity = look_into(object, announced);
-  if (identity && !sync_to_disk(object)) identity = fail(ErrorKind::write, "cannot be written");
+  const auto identity = check_object(object);
+  const std::string objection = identity ? objection_to(*identity, announced) : std::string();
+  const bool is_damaged = !identity || (objection.empty() && !sync_to_disk(object));
   const std::lock_guard lock(mutex_);
-  if (!identity) {
-    note_refusal(object, identity.error().message);
+  if (is_damaged) {
+    // Without the file's name, which is only a number.
+    const std::string told =
+        note_refusal(object, identity ? "cannot be written" : without_path(identity.error().message, object));
+    if (retrieved_.damaged.empty()) retrieved_.damaged = told;
+    return false;
+  }
+  if (!objection.empty()) {
+    note_refusal(object, objection);
     return false;
   }
   if (!instances_.insert(identity->sop_instance).second) {
@@ -110,22 +113,24 @@ bool RetrievalFolder::take(const fs::path& object, const std::optional<Announced
   return true;
 }
 
-void RetrievalFolder::refuse(const fs::path& object, std::string reason) {
+void RetrievalFolder::refuse(const fs::path& object, const std::string& reason) {
   const std::lock_guard lock(mutex_);
-  note_refusal(object, std::move(reason));
+  note_refusal(object, reason);
 }
 
-void RetrievalFolder::note_refusal(const fs::path& object, std::string reason) {
+std::string RetrievalFolder::note_refusal(const fs::path& object, const std::string& reason) {
   std::error_code ignored;
   fs::remove(object, ignored);
   unfinished_.erase(object);
-  const std::string number = object.stem().string();  // which of the objects that came
+  // By its number among the objects that came.
+  std::string told = fmt::format("object {}: {}", object.stem().string(), reason);
   if (retrieved_.refused.size() < kMostReasons) {
-    retrieved_.refused.push_back(fmt::format("object {}: {}", number, reason));
+    retrieved_.refused.push_back(told);
   } else {
     retrieved_.refused.resize(kMostReasons + 1);
     retrieved_.refused.back() = "and others";
   }
+  return told;
 }
 
 void RetrievalFolder::set_expected(std::int64_t objects) {

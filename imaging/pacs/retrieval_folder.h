@@ -45,7 +45,7 @@ class RetrievalFolder {
   };
   bool take(const std::filesystem::path& object, const std::optional<Announced>& announced = {});
   // Refuses an object.
-  void refuse(const std::filesystem::path& object, std::string reason);
+  void refuse(const std::filesystem::path& object, const std::string& reason);
 
   void set_expected(std::int64_t objects);  // for the progress
   // While objects come on other connections, the one on which they were asked for may be silent.
@@ -59,9 +59,11 @@ class RetrievalFolder {
                   AtomicFolder collected)
       : request_(request), limits_(limits), progress_(progress), collected_(std::move(collected)) {}
   Status check_free_space() const;
-  Result<ObjectIdentity> look_into(const std::filesystem::path& object,
-                                   const std::optional<Announced>& announced) const;
-  void note_refusal(const std::filesystem::path& object, std::string reason);
+  // Why an object is not wanted; empty: it is.
+  [[nodiscard]] std::string objection_to(const ObjectIdentity& identity,
+                                         const std::optional<Announced>& announced) const;
+  // Returns the line that says so.
+  std::string note_refusal(const std::filesystem::path& object, const std::string& reason);
 
   const RetrieveRequest request_;
   const PacsLimits limits_;

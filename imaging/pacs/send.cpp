@@ -24,9 +24,11 @@ bool is_compressed(const std::string& transfer_syntax) {
   return syntax == nullptr || syntax->is_encapsulated() || syntax->is_deflated;
 }
 
-// The encodings that an object may be sent in.
+// The encodings that an object may be sent in. Values may be too long for the explicit form of what they are
+// (a contour's points), and every server takes the implicit one (PS3.5 10.1).
 std::vector<std::string> encodings(const std::string& transfer_syntax) {
-  if (is_compressed(transfer_syntax)) return {transfer_syntax};
+  if (is_compressed(transfer_syntax) || transfer_syntax == UID_LittleEndianImplicitTransferSyntax)
+    return {transfer_syntax};
   std::vector<std::string> all{UID_LittleEndianExplicitTransferSyntax,
                                UID_LittleEndianImplicitTransferSyntax};
   if (transfer_syntax == UID_BigEndianExplicitTransferSyntax) all.push_back(transfer_syntax);

@@ -86,6 +86,7 @@ struct Retrieved {
   std::int64_t bytes = 0;
   std::int64_t missing = 0;           // objects that the server could not send
   std::vector<std::string> refused;   // the reasons for objects that came and were not taken
+  std::string damaged;                // the first of them for one that may have been wanted; empty: none
   std::vector<AuditedStudy> studies;  // whose the files are
 };
 // Brings a series or a study as the server's `retrieve` says; by move, one at a time for each user and port

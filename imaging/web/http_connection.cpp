@@ -198,7 +198,10 @@ void HttpConnection::encrypt() {
   const TlsFiles& tls = *server_.tls;
   curl_easy_setopt(handle, CURLOPT_SSL_VERIFYPEER, tls.verify ? 1L : 0L);
   curl_easy_setopt(handle, CURLOPT_SSL_VERIFYHOST, tls.verify ? 2L : 0L);
-  if (!tls.ca.empty()) curl_easy_setopt(handle, CURLOPT_CAINFO, tls.ca.c_str());
+  if (!tls.ca.empty()) {
+    curl_easy_setopt(handle, CURLOPT_CAINFO, tls.ca.c_str());
+    curl_easy_setopt(handle, CURLOPT_CAPATH, nullptr);  // the system's authorities
+  }
   if (tls.certificate.empty()) return;
   curl_easy_setopt(handle, CURLOPT_SSLCERT, tls.certificate.c_str());
   curl_easy_setopt(handle, CURLOPT_SSLKEY, tls.key.c_str());

@@ -1,16 +1,19 @@
 'use strict';
 (() => {
   const cards = [...document.querySelectorAll('article')];
-  const key = 'tidemark-cohort:' + location.pathname;
+  // Another cohort may have been here.
+  const key = 'tidemark-cohort:' + location.pathname + ' ' + document.body.dataset.plan;
   let decisions = {};
   try { decisions = JSON.parse(localStorage.getItem(key)) || {}; } catch (error) { decisions = {}; }
-  // What the folder keeps. What was said here stays where the folder still keeps what it did then.
-  const nothing = JSON.stringify(['', '']);
+  // What the folder keeps of a case, and which result that is about.
+  const kept = ({ decision = '', comment = '', finished }) => JSON.stringify([decision, comment, finished]);
+  // What was said here stays where the folder still keeps what it did then.
   for (const card of cards) {
     const { id, decision = '', comment = '' } = card.dataset;
-    const folder = JSON.stringify([decision, comment]);
-    const known = decisions[id] ? decisions[id].folder || nothing : nothing;
-    if (known !== folder) decisions[id] = { decision, comment, folder };
+    const folder = kept(card.dataset);
+    if (decisions[id] && decisions[id].folder === folder) continue;
+    delete decisions[id];
+    if (decision || comment) decisions[id] = { decision, comment, folder };
   }
   let saved = true;
 
@@ -28,7 +31,7 @@
       `${of('accept')} accepted, ${of('reject')} rejected, ${cards.length} cases`;
   };
   const change = (card, part) => {
-    decisions[card.dataset.id] = { ...decisions[card.dataset.id], ...part };
+    decisions[card.dataset.id] = { ...decisions[card.dataset.id], ...part, folder: kept(card.dataset) };
     saved = false;
     try { localStorage.setItem(key, JSON.stringify(decisions)); } catch (error) { /* a full or closed store */ }
     show(card);

@@ -1,5 +1,6 @@
 // Leases: one program at a time has a case, whatever happens to the others.
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -40,13 +41,18 @@ void wait_for(pid_t process) {
   ::waitpid(process, &status, 0);
 }
 
-// A lease of another machine: nothing is known of its process.
-void hold_elsewhere(const std::filesystem::path& file, int age_s) {
-  std::ofstream(file) << "elsewhere\n1\n1\n";
+// A file whose last sign of life is that old.
+void write_aged(const std::filesystem::path& file, const char* text, int age_s) {
+  std::ofstream(file) << text;
   timespec now{};
   ::clock_gettime(CLOCK_REALTIME, &now);
   const timespec times[2] = {{now.tv_sec - age_s, 0}, {now.tv_sec - age_s, 0}};
   ::utimensat(AT_FDCWD, file.c_str(), times, 0);
+}
+
+// A lease of another machine: nothing is known of its process.
+void hold_elsewhere(const std::filesystem::path& file, int age_s) {
+  write_aged(file, "elsewhere\n1\n1\n", age_s);
 }
 
 int files_in(const std::filesystem::path& folder) {
@@ -65,6 +71,7 @@ class CohortLeaseTest : public QObject {
   void of_many_processes_one_gets_each_case();
   void of_many_processes_one_takes_an_old_lease_over();
   void a_process_that_was_killed_frees_its_lease_at_once();
+  void a_process_that_nobody_can_look_at_keeps_its_lease();
   void a_lease_of_another_machine_ages_out();
   void a_refreshed_lease_does_not_age();
   void who_was_held_up_has_lost_it();
@@ -151,6 +158,24 @@ void CohortLeaseTest::a_process_that_was_killed_frees_its_lease_at_once() {
   QVERIFY(take(folder.path(), "a", kNever));
 }
 
+// A place without /proc hides it, as /proc may hide the processes of other users.
+void CohortLeaseTest::a_process_that_nobody_can_look_at_keeps_its_lease() {
+  const test::TemporaryFolder folder;
+  const auto lease = take(folder.path(), "a", kNever);
+  QVERIFY(lease);
+  const pid_t process = ::fork();
+  if (process == 0) {
+    // Who is not root may go there as the root of a space of its own.
+    if (::geteuid() != 0 && ::unshare(CLONE_NEWUSER) != 0) ::_exit(2);
+    if (::chroot(folder.path().c_str()) != 0) ::_exit(3);
+    ::_exit(take("/", "a", kNever) ? 1 : 0);
+  }
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  QCOMPARE(WEXITSTATUS(status), 0);
+  QVERIFY(WIFEXITED(status) && lease->held());
+}
+
 void CohortLeaseTest::a_lease_of_another_machine_ages_out() {
   const test::TemporaryFolder folder;
   hold_elsewhere(folder / "a.1", 100);
@@ -184,8 +209,12 @@ void CohortLeaseTest::who_was_held_up_has_lost_it() {
 void CohortLeaseTest::a_file_that_is_no_lease_ages_like_one() {
   const test::TemporaryFolder folder;
   for (const char* text : {"", "x", "\n\n\n", "a\nb\nc\n", "a\n-1\n1\n", "a\n99999999999999999999\n1\n"}) {
-    std::ofstream(folder / "a.1") << text;
+    write_aged(folder / "a.1", text, 0);
     QVERIFY2(!take(folder.path(), "a", 50.0), text);
+    write_aged(folder / "a.1", text, 100);
+    auto lease = take(folder.path(), "a", 50.0);
+    QVERIFY2(lease && lease->number() == 2, text);
+    lease->finish();
   }
 }
 

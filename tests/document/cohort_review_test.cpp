@@ -56,8 +56,8 @@ class SmallCohort {
   cohort::WorkList list_;
 };
 
-QString page_of(const SmallCohort& cohort) {
-  const auto page = cohort::report_page(cohort.folder(), cohort.review(), cohort::PagePictures::embed);
+QString page_of(const SmallCohort& cohort, const cohort::CohortPlan& plan = {}) {
+  const auto page = cohort::report_page(cohort.folder(), plan, cohort.review(), cohort::PagePictures::embed);
   if (!page) qFatal("%s", page.error().message.c_str());
   return QString::fromStdString(*page);
 }
@@ -76,6 +76,7 @@ class CohortReviewTest : public QObject {
   void a_status_that_cannot_be_read_loses_no_other();
   void a_status_is_read_as_it_was_written();
   void the_page_begins_with_what_was_said();
+  void the_page_of_another_plan_or_result_has_another_mark();
   void text_of_a_hostile_case_stays_text();
   void a_table_holds_no_formula();
   void base64_is_that_of_rfc_4648();
@@ -173,7 +174,7 @@ void CohortReviewTest::the_page_begins_with_what_was_said() {
                          {"case1", cohort::Decision::Verdict::rejected, "a \"leak\""}));
   const QString page = page_of(cohort);
   QVERIFY(
-      page.contains("data-id=\"case1\" data-outcome=\"done\" data-decision=\"reject\" "
+      page.contains("data-id=\"case1\" data-finished=\"\" data-outcome=\"done\" data-decision=\"reject\" "
                     "data-comment=\"a &quot;leak&quot;\""));
   QCOMPARE(page.count("data-decision=\""), 1);
   // A damaged table loses nothing else, and is named.
@@ -182,6 +183,22 @@ void CohortReviewTest::the_page_begins_with_what_was_said() {
   QCOMPARE(review.cases.size(), std::size_t{3});
   QCOMPARE(review.unreadable.size(), std::size_t{1});
   QVERIFY(review.unreadable.front().find("decisions.csv") != std::string::npos);
+}
+
+// A browser keeps decisions by them.
+void CohortReviewTest::the_page_of_another_plan_or_result_has_another_mark() {
+  SmallCohort cohort(1);
+  CaseStatus status = done("again", 1.0);
+  status.finished = "2026-03-01T12:00:00Z";
+  cohort.add(status);
+  cohort::CohortPlan plan;
+  plan.planned = "2026-02-01T12:00:00Z";
+  plan.recipe_checksum = "abc";
+  QVERIFY(page_of(cohort, plan).contains("<body data-plan=\"2026-02-01T12:00:00Z abc\">"));
+  plan.recipe_checksum = "def";
+  const QString page = page_of(cohort, plan);
+  QVERIFY(page.contains("<body data-plan=\"2026-02-01T12:00:00Z def\">"));
+  QVERIFY(page.contains("data-id=\"again\" data-finished=\"2026-03-01T12:00:00Z\""));
 }
 
 void CohortReviewTest::text_of_a_hostile_case_stays_text() {
@@ -235,7 +252,7 @@ void CohortReviewTest::pictures_are_in_the_page() {
   cohort.add(status);
   QVERIFY(write_file(cohort.folder().case_folder("p") / "overview.png", "PNG"));
   QVERIFY(page_of(cohort).contains("src=\"data:image/png;base64,UE5H\""));
-  const auto linked = cohort::report_page(cohort.folder(), cohort.review(), cohort::PagePictures::link);
+  const auto linked = cohort::report_page(cohort.folder(), {}, cohort.review(), cohort::PagePictures::link);
   QVERIFY(QString::fromStdString(*linked).contains("src=\"cases/p/overview.png\""));
   QCOMPARE(cohort::suitable_pictures(cohort.folder(), cohort.review()), cohort::PagePictures::embed);
 }

@@ -18,6 +18,7 @@
 #include "core/atomic_file.h"
 #include "document/cohort/runner.h"
 #include "document/cohort/worker.h"
+#include "tests/app/folder_events.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -145,10 +146,13 @@ class CohortRunTest : public QObject {
  private slots:
   void each_case_is_computed_once();
   void a_case_that_fails_stops_no_other();
+  void a_status_of_any_length_stops_no_other();
   void a_full_disk_is_no_fault_of_a_case();
   void what_is_out_of_reach_ends_no_case_beside_it();
   void cases_without_a_result_are_tried_again_when_asked();
   void shards_share_the_rows();
+  void a_shard_ends_when_its_rows_are_done_though_another_was_killed_with_one();
+  void cases_that_others_have_done_are_passed_over_without_a_lease();
   void the_peak_of_a_case_is_not_that_of_the_one_before();
   void a_stopped_run_gives_back_what_it_has_begun();
   void runs_side_by_side_do_no_case_twice();
@@ -196,6 +200,32 @@ void CohortRunTest::a_case_that_fails_stops_no_other() {
   QVERIFY(QString::fromStdString(planned.status("segfault").reason).contains("signal 11"));
   QCOMPARE(QString::fromStdString(planned.status("throw").reason), QString("thrown"));
   QCOMPARE(tally->without_result(), std::int64_t{7});
+  QCOMPARE(planned.left(), QString());
+}
+
+void CohortRunTest::a_status_of_any_length_stops_no_other() {
+  const Planned planned;
+  const auto tell_much = [](const WorkRow& row, const fs::path& folder) {
+    auto status = succeed(row, folder);
+    if (row.id == "reason") {
+      status->outcome = CaseOutcome::refused;
+      status->reason = "x";
+      for (int i = 0; i < 35'000; ++i) status->reason += "é";
+    }
+    if (row.id == "remarks") status->remarks.assign(2'000, std::string(5'000, 'x'));
+    if (row.id == "series") status->series.assign(5'000, '1');
+    return status;
+  };
+  const auto list = list_of({"reason", "remarks", "series", "good"});
+  const auto tally = cohort::run_cohort(planned.folder(), list, {}, tell_much);
+  QCOMPARE(test::failure(tally), QString());
+  QCOMPARE(planned.status("reason").outcome, CaseOutcome::refused);
+  QCOMPARE(planned.status("reason").reason.size(), std::size_t{65'535});  // of whole letters
+  QCOMPARE(planned.status("remarks").outcome, CaseOutcome::done);
+  QVERIFY(!planned.status("remarks").remarks.empty());
+  QCOMPARE(planned.status("series").outcome, CaseOutcome::failed);  // what is too long there is a defect
+  QVERIFY(QString::fromStdString(planned.status("series").reason).contains("status.json: series: "));
+  QCOMPARE(planned.status("good").outcome, CaseOutcome::done);
   QCOMPARE(planned.left(), QString());
 }
 
@@ -264,6 +294,45 @@ void CohortRunTest::shards_share_the_rows() {
     QVERIFY(cohort::run_cohort(planned.folder(), list, options, succeed));
     QCOMPARE(planned.done().size(), std::size_t(shard == 1 ? 4 : shard == 2 ? 7 : 10));
   }
+}
+
+void CohortRunTest::a_shard_ends_when_its_rows_are_done_though_another_was_killed_with_one() {
+  const Planned planned;
+  const auto list = list_of(numbered(3));
+  std::ofstream(planned.folder().leases() / "case1.1") << "another machine\n1\n1\n";
+  // A run that shares its rows leaves it to the other.
+  const auto shared = cohort::run_cohort(planned.folder(), list, {}, succeed);
+  QCOMPARE(test::failure(shared), QString());
+  QCOMPARE(shared->elsewhere, std::int64_t{1});
+  QCOMPARE(planned.done(), (std::set<std::string>{"case0", "case2"}));
+  cohort::RunOptions options;
+  options.shard = 2;
+  options.shards = 1'000;
+  options.stale_after_s = 0.4;
+  const auto tally = cohort::run_cohort(planned.folder(), list, options, succeed);
+  QCOMPARE(test::failure(tally), QString());
+  QCOMPARE(tally->computed(), std::int64_t{1});
+  QCOMPARE(planned.done().size(), std::size_t{3});
+  QCOMPARE(planned.left(), QString());
+}
+
+void CohortRunTest::cases_that_others_have_done_are_passed_over_without_a_lease() {
+  const Planned planned;
+  const auto list = list_of(numbered(20));
+  const auto compute = [&](const WorkRow& row, const fs::path& folder) {
+    for (const WorkRow& other : list.rows) {
+      if (other.id != row.id) fs::create_directory(planned.folder().case_folder(other.id));
+    }
+    return succeed(row, folder);
+  };
+  FolderEvents events(planned.folder().leases(), IN_CREATE);
+  const auto tally = cohort::run_cohort(planned.folder(), list, {}, compute);
+  QCOMPARE(test::failure(tally), QString());
+  QCOMPARE(tally->computed(), std::int64_t{1});
+  QCOMPARE(tally->elsewhere, std::int64_t{19});
+  QStringList leases = events.by_name().keys();
+  leases.removeIf([](const QString& name) { return name.startsWith('.'); });  // not yet leases
+  QCOMPARE(leases.size(), 1);
 }
 
 // Root may do what users may not.

@@ -390,6 +390,21 @@ class StudyArchiveTest : public QObject {
     QVERIFY(holds(found->skipped[0].reason, "is a zip archive"));
   }
 
+  void without_room_to_unpack_a_write_has_failed() {
+    const test::TemporaryFolder folder;
+    write_archive(folder / "study.zip", {{"a.txt", std::string(100'000, 'x')}});
+    const auto ended = test::run_in_child(
+        [&]() -> Status {
+          const auto found = imaging::find_series(folder / "study.zip");
+          if (found) return {};
+          const bool is_write = found.error().kind == ErrorKind::write;
+          return fail(found.error().kind, "{}: {}", is_write ? "write" : "else", found.error().message);
+        },
+        {.largest_file = 5000, .is_fatal = false});
+    QVERIFY2(ended.failure.starts_with("write: "), ended.failure.c_str());
+    QVERIFY2(holds(ended.failure, "study.zip: there is no room to unpack it"), ended.failure.c_str());
+  }
+
   void unpacking_can_be_given_up() {
     const test::TemporaryFolder folder;
     write_archive(folder / "study.zip", entries_of(sample_));

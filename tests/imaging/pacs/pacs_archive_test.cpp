@@ -203,6 +203,29 @@ class PacsArchiveTest : public QObject {
     QCOMPARE(syntax_of(received.front()), syntax_of(packed));
   }
 
+  // In the explicit form they would be bytes of an unknown representation.
+  void contours_of_very_many_points_stay_what_they_are() {
+    const TemporaryFolder folder;
+    Geometry geometry;
+    geometry.size = {300, 300, 1};
+    std::vector<std::uint8_t> comb(90000);
+    for (std::size_t v = 0; v < comb.size(); ++v) comb[v] = v / 300 == 0 || v % 300 % 2 == 0 ? 1 : 0;
+    imaging::Segment segment;
+    segment.slices[0] = comb;
+    QCOMPARE(failure(imaging::write_structure_set({geometry, {segment}, {}}, {}, folder / "set.dcm")),
+             QString());
+    const StoringPeer peer({"+x="});  // rather takes the explicit form
+    const auto sent = imaging::send_files(peer.server(), {folder / "set.dcm"});
+    QCOMPARE(failure(sent), QString());
+    QCOMPARE(sent->objects, 1);
+    const auto received = files_in(peer.received());
+    QCOMPARE(received.size(), std::size_t{1});
+    QCOMPARE(syntax_of(received.front()), syntax_of(folder / "set.dcm"));
+    const auto read = imaging::read_structure_set(received.front(), geometry);
+    QCOMPARE(failure(read), QString());
+    QVERIFY(read->list[0].slices == segment.slices);
+  }
+
   void an_archive_with_compressed_objects_sends_them_as_they_are_data() {
     QTest::addColumn<bool>("by_get");
     QTest::newRow("by get") << true;
