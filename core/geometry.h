@@ -18,6 +18,7 @@ struct Geometry {
   glm::dvec3 spacing_mm{1.0};  // distance of voxel centres along i, j, k
   glm::dmat3 direction{1.0};   // column a is the unit vector of axis a in LPS
   glm::dvec3 origin_mm{0.0};   // centre of voxel (0, 0, 0) in LPS
+  bool oriented = true;        // false: nobody knows which sides of the patient x, y and z lead to
 
   bool operator==(const Geometry&) const = default;
 

@@ -15,7 +15,7 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::size_
   };
   // What is no file of bytes is not opened: a pipe would wait.
   std::error_code error;
-  std::filesystem::file_size(file, error);
+  static_cast<void>(std::filesystem::file_size(file, error));
   if (error) return unreadable(error);
   // The size is that of what was opened: another file may take its name at any time.
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(std::fopen(file.c_str(), "rbe"), &std::fclose);

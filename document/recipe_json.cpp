@@ -265,10 +265,12 @@ RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int
 Json to_json(const Geometry& geometry) {
   Json direction = Json::array();
   for (int a = 0; a < 3; ++a) direction.push_back(vector_json(geometry.direction[a]));
-  return {{"size", index_json(geometry.size)},
-          {"spacing_mm", vector_json(geometry.spacing_mm)},
-          {"origin_mm", vector_json(geometry.origin_mm)},
-          {"direction", direction}};
+  Json json = {{"size", index_json(geometry.size)},
+               {"spacing_mm", vector_json(geometry.spacing_mm)},
+               {"origin_mm", vector_json(geometry.origin_mm)},
+               {"direction", direction}};
+  if (!geometry.oriented) json["oriented"] = false;
+  return json;
 }
 
 Geometry read_geometry(const JsonField& field) {
@@ -281,6 +283,7 @@ Geometry read_geometry(const JsonField& field) {
   for (std::size_t a = 0; a < 3; ++a) {
     geometry.direction[static_cast<int>(a)] = direction.at(a).vector(-1.001, 1.001);
   }
+  if (field.has("oriented")) geometry.oriented = field.at("oriented").boolean();
   if (!field.good()) return {};
   const auto voxels = checked_product(geometry.size.x, geometry.size.y, geometry.size.z);
   if (!voxels || *voxels > kMostVoxels) field.at("size").wrong("more voxels than are read");

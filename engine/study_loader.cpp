@@ -40,7 +40,6 @@ Result<LoadedStudy> load_study(const imaging::ChosenSeries& chosen, const Progre
   study.slice_numbers = imaging::slice_numbers(series);
   study.name = StudyLoader::name_of(series);
   study.frame_of_reference_uid = series.frame_of_reference_uid;
-  study.oriented = series.oriented;
   study.patient = series.patient;
   study.audited = imaging::audited_study(series);
   study.date = series.date;

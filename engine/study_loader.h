@@ -36,7 +36,6 @@ struct LoadedStudy {
   SourceSummary summary;
   QString name;                        // for titles; never the patient's
   std::string frame_of_reference_uid;  // empty where it is not known
-  bool oriented = true;                // the files say how the axes lie in the patient
   imaging::Patient patient;
   imaging::AuditedStudy audited;  // the same patient and study, for audit messages
   std::string date;               // of the study: "2004-07-31"; empty when unknown

@@ -43,7 +43,6 @@ struct Series {
   // DICOM (0020,0052): series of one frame lie in the same patient coordinates. Empty where it is not known.
   std::string frame_of_reference_uid;
   Geometry geometry;                           // meaningful when loadable
-  bool oriented = true;                        // the files say how its axes lie in the patient
   std::string scalar;                          // of the volume when loaded: "int16", "uint16" or "float"
   std::string unit;                            // of the values: "HU", "SUVbw g/ml"; empty when they have none
   double value_scale = 1.0;                    // by which rescaled values are multiplied to have that unit

@@ -186,7 +186,7 @@ Result<std::vector<float>> MonaiLabel::segment(const Volume& volume, const AiReq
   const auto folder = PrivateFolder::create();
   if (!folder) return pass_on(folder);
   const fs::path image = folder->path() / "image.nii";
-  TIDEMARK_TRY(write_volume_file(volume, image));
+  TIDEMARK_TRY(write_volume_file(volume, image, UnknownSides::stated));
   const auto file = infer(image, request, folder->path(), volume.geometry.voxel_count(), progress);
   if (!file) return pass_on(file);
   progress(-1.0, "reading the answer");

@@ -51,10 +51,10 @@ bool is_ascii(const std::string& text) {
 
 Timestamp Timestamp::now() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  return {fmt::format("{:04}{:02}{:02}", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday),
-          fmt::format("{:02}{:02}{:02}", utc.tm_hour, utc.tm_min, utc.tm_sec)};
+  std::tm local{};
+  localtime_r(&now, &local);
+  return {fmt::format("{:04}{:02}{:02}", local.tm_year + 1900, local.tm_mon + 1, local.tm_mday),
+          fmt::format("{:02}{:02}{:02}", local.tm_hour, local.tm_min, local.tm_sec)};
 }
 
 }  // namespace tidemark::imaging

@@ -25,7 +25,8 @@ template <class... Values>
 
 [[nodiscard]] bool is_ascii(const std::string& text);
 
-// A moment as a date (DA) and a time (TM), UTC.
+// A moment as a date (DA) and a time (TM). By the clock of the place, as objects mean it that state no
+// Timezone Offset From UTC (0008,0201).
 struct Timestamp {
   std::string date;
   std::string time;

@@ -36,11 +36,44 @@ std::string reason_of_rest(const Group& rest) {
                      name, rest.size() - 1);
 }
 
+// The images of each patient, and of each study of one, apart: some software writes one SeriesInstanceUID, or
+// none, for all. An image that names nobody belongs to the only one that others name, if there is no second.
+// Some anonymisers give each file a study of its own, which tells nothing apart.
+std::vector<Group> by_owner(Group group) {
+  std::set<std::string> patients;
+  std::set<std::string> studies;
+  std::set<std::filesystem::path> files;
+  for (const SliceHeader& slice : group) {
+    files.insert(slice.file);
+    if (!slice.patient.id.empty()) patients.insert(slice.patient.id);
+    if (!slice.study_uid.empty()) studies.insert(slice.study_uid);
+  }
+  const bool by_study = studies.size() > 1 && studies.size() < files.size();
+  const auto owner_of = [&](const SliceHeader& slice) {
+    return std::pair(patients.size() > 1 ? slice.patient.id : std::string(),
+                     by_study ? slice.study_uid : std::string());
+  };
+  std::vector<Group> result;  // in order of appearance
+  std::map<std::pair<std::string, std::string>, std::size_t> known;
+  for (SliceHeader& slice : group) {
+    const auto [owner, is_new] = known.try_emplace(owner_of(slice), result.size());
+    if (is_new) result.emplace_back();
+    result[owner->second].push_back(std::move(slice));
+  }
+  return result;
+}
+
 // One series, or each of the volumes in it and the images left over.
 std::vector<Series> arrange_parts(Group group) {
-  auto parts = split_series(std::move(group));
+  std::vector<Group> owners = by_owner(std::move(group));
+  std::vector<SeriesPart> parts;
+  for (Group& one : owners) {
+    auto own = split_series(std::move(one));
+    std::move(own.begin(), own.end(), std::back_inserter(parts));
+  }
   const auto volumes =
       std::count_if(parts.begin(), parts.end(), [](const auto& part) { return !part.is_rest; });
+  const bool has_rest = std::cmp_less(volumes, parts.size());
   std::vector<Series> result;
   for (SeriesPart& part : parts) {
     const std::string rest = part.is_rest ? reason_of_rest(part.slices) : "";
@@ -48,12 +81,16 @@ std::vector<Series> arrange_parts(Group group) {
     Series& series = result.emplace_back(arrange_series(std::move(part.slices)));
     if (parts.size() > 1) {
       series.uid += fmt::format("#{}", result.size());
-      series.changes.push_back(fmt::format("one part of its series, which holds {} volume{}{}{}", volumes,
-                                           volumes == 1 ? "" : "s",
-                                           parts.back().is_rest ? " and images that fit into none" : "",
-                                           part.label.empty() ? "" : ": " + part.label));
+      series.changes.push_back(fmt::format(
+          "one part of its series, which holds {} volume{}{}{}", volumes, volumes == 1 ? "" : "s",
+          has_rest ? " and images that fit into none" : "", part.label.empty() ? "" : ": " + part.label));
     }
     series.changes.insert(series.changes.end(), part.changes.begin(), part.changes.end());
+    if (owners.size() > 1) {
+      series.warnings.emplace_back(
+          "images of another patient or study have the same SeriesInstanceUID (0020,000E), or none as well; "
+          "PatientID (0010,0020) and StudyInstanceUID (0020,000D) keep them apart");
+    }
     if (part.is_rest) {
       series.loadable = false;
       series.reason = rest;

@@ -142,6 +142,8 @@ std::string take_mapping(DcmItem& item, SliceHeader& header) {
   if (mapping.unit.empty() || mapping.unit == "1" || mapping.unit.starts_with('{')) {
     return "it states no unit";
   }
+  constexpr const char* kInNoUnit = "<>&\"";
+  if (mapping.unit.find_first_of(kInNoUnit) != std::string::npos) return "its unit is none of UCUM";
   const double lowest = header.is_signed ? -std::ldexp(1.0, header.bits_stored - 1) : 0.0;
   const double highest = std::ldexp(1.0, header.bits_stored - (header.is_signed ? 1 : 0)) - 1.0;
   const auto first = mapped_value(item, DCM_RealWorldValueFirstValueMapped,

@@ -212,7 +212,7 @@ void complete_single(SliceHeader& slice, Series& series) {
     slice.position_mm = glm::dvec3(0.0);
     slice.orientation = {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0)};
     series.frame_of_reference_uid.clear();
-    series.oriented = false;
+    series.geometry.oriented = false;
     series.warnings.emplace_back("the image does not say where it lies in the patient, nor which way up");
   }
 }
@@ -351,7 +351,9 @@ void set_grid(Series& series, const GridPolicy& policy) {
   take_back(series.warnings, series.grid.warnings);
   series.policy = policy;
   series.grid = plan_regular_grid(series.stack, policy);
+  const bool is_oriented = series.geometry.oriented;
   series.geometry = series.grid.geometry;
+  series.geometry.oriented = is_oriented;
   series.reason = series.grid.refusal;
   series.loadable = series.reason.empty();
   series.changes.insert(series.changes.end(), series.grid.changes.begin(), series.grid.changes.end());

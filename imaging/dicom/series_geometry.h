@@ -25,8 +25,8 @@ void set_grid(Series& series, const GridPolicy& policy);
 [[nodiscard]] std::string series_key(const SliceHeader& slice);
 
 // Splits images into series by their key, and series into the volumes that they hold (split_series.h), whose
-// UIDs get a number: "1.2.3#2". Copies of one series in several folders (the same SOP Instance UIDs again)
-// become one series a folder.
+// UIDs get a number: "1.2.3#2". No volume has images of two patients or studies. Copies of one series in
+// several folders (the same SOP Instance UIDs again) become one series a folder.
 [[nodiscard]] std::vector<Series> group_series(std::vector<SliceHeader> slices);
 
 }  // namespace tidemark::imaging

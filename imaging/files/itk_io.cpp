@@ -61,7 +61,7 @@ Result<ItkName> ItkName::create(Format format, const std::filesystem::path& file
   std::error_code error;
   std::string pattern = (std::filesystem::temp_directory_path(error) / "tidemark-XXXXXX").string();
   if (error || ::mkdtemp(pattern.data()) == nullptr) {
-    return fail(ErrorKind::capability, "{}: its suffix needs a temporary folder, and none can be made",
+    return fail(ErrorKind::write, "{}: its suffix needs a temporary folder, and none can be made",
                 file.string());
   }
   name.folder_ = pattern;
@@ -69,7 +69,7 @@ Result<ItkName> ItkName::create(Format format, const std::filesystem::path& file
   name.path_ = name.folder_ / (std::string("volume") + *suffix);
   const auto absolute = std::filesystem::absolute(file, error);
   if (!error) std::filesystem::create_symlink(absolute, name.path_, error);
-  if (error) return fail(ErrorKind::capability, "{}: {}", name.path_.string(), error.message());
+  if (error) return fail(ErrorKind::write, "{}: {}", name.path_.string(), error.message());
   return name;
 }
 

@@ -35,6 +35,7 @@ itk::ImageIOBase::Pointer make_image_io(Format format, const std::filesystem::pa
 class ItkName {
  public:
   enum class Use { read, write };
+  // Fails (ErrorKind::write) when there is no such folder to be had.
   static Result<ItkName> create(Format format, const std::filesystem::path& file, Use use);
   ~ItkName();
   ItkName(ItkName&& other) noexcept;

@@ -59,6 +59,7 @@ struct Upright {
 // Sizes and spacing, with the sentences about them.
 Geometry place(PictureHeader& header) {
   Geometry geometry;
+  geometry.oriented = false;
   geometry.size = {header.columns, header.rows, header.pages};
   const glm::dvec2 resolution = header.pixels_per_mm;
   const glm::dvec2 spacing = 1.0 / resolution;
@@ -192,7 +193,6 @@ Series scan_picture(const std::filesystem::path& file) {
   PictureHeader header = (*picture)->header();
   describe(header);
   series.geometry = place(header);
-  series.oriented = false;
   series.scalar = scalar_of(header);
   series.loadable = true;
   series.changes = std::move(header.changes);

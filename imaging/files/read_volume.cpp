@@ -32,7 +32,6 @@ Series series_of(const std::filesystem::path& file) {
 void take(Series& series, const VolumeHeader& header) {
   series.loadable = true;
   series.geometry = header.geometry;
-  series.oriented = header.layout.oriented;
   series.scalar = header.scalar;
   series.changes = header.changes;
   series.warnings = header.warnings;

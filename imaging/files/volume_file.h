@@ -32,9 +32,20 @@ struct VolumeWithSeries {
 Result<VolumeWithSeries> read_volume_with_series(const std::filesystem::path& file,
                                                  const Progress& progress = {});
 
+// Whether a file of that name can hold the grid without saying how its axes lie in the patient. MetaImage
+// cannot, and NIfTI then has no origin and no directions.
+[[nodiscard]] bool can_leave_sides_open(const std::filesystem::path& file, const Geometry& grid);
+
+// What is written of a grid whose sides nobody knows.
+enum class UnknownSides {
+  open,    // the file says so, where it can
+  stated,  // a place in a patient, for a program that goes by such places and sends back a file with the same
+};
+
 // Written through a temporary file; on failure (ErrorKind::write) the target is as it was before. Values are
 // written rescaled: as int16 or uint16 when slope and intercept are whole numbers and all fits, else float.
-Status write_volume_file(const Volume& volume, const std::filesystem::path& file);
+Status write_volume_file(const Volume& volume, const std::filesystem::path& file,
+                         UnknownSides sides = UnknownSides::open);
 Status write_mask_file(const Mask& mask, const std::filesystem::path& file);  // as uint8, 0 and 1
 
 }  // namespace tidemark::imaging

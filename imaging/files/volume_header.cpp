@@ -73,6 +73,7 @@ Result<Geometry> checked_geometry(const itk::ImageIOBase& io, const PixelLayout&
   const auto size = checked_size(io, name);
   if (!size) return pass_on(size);
   geometry.size = *size;
+  geometry.oriented = layout.oriented;
   const double origin_scale = is_origin_unscaled(io, layout) ? layout.origin_scale : 1.0;
   glm::dmat3 direction;
   for (unsigned axis = 0; axis < 3; ++axis) {

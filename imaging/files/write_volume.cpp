@@ -1,5 +1,8 @@
 #include <itkImageIORegion.h>
+#include <itkMetaDataObject.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -13,9 +16,35 @@ namespace {
 
 constexpr std::int64_t kLongestNiftiAxis = std::numeric_limits<std::int16_t>::max();
 
+// Writes a NIfTI file anew without the codes of a place in the patient, which ITK always gives it. Says
+// whether that went well.
+bool clear_nifti_place(const std::filesystem::path& file) {
+  constexpr std::size_t kCodes = 252;  // qform_code and sform_code
+  auto cleared = AtomicFile::create(file);
+  if (!cleared) return false;
+  const gzFile from = gzopen(file.c_str(), "rb");  // reads files that are not gzip as they are
+  const gzFile to = gzopen(cleared->temporary_path().c_str(), files::has_suffix(file, ".gz") ? "wb" : "wbT");
+  bool is_good = from != nullptr && to != nullptr;
+  std::vector<char> some(std::size_t{1} << 20);
+  for (bool is_first = true; is_good; is_first = false) {
+    const int count = gzread(from, some.data(), static_cast<unsigned>(some.size()));
+    is_good = count >= 0;
+    if (count <= 0) break;
+    if (is_first) std::fill_n(some.begin() + kCodes, 2 * sizeof(std::int16_t), '\0');
+    is_good = gzwrite(to, some.data(), static_cast<unsigned>(count)) == count;
+  }
+  if (from != nullptr) gzclose_r(from);
+  if (to != nullptr && gzclose_w(to) != Z_OK) is_good = false;
+  return is_good && cleared->commit();
+}
+
 void write_through_itk(const std::filesystem::path& file, const Geometry& geometry, itk::IOComponentEnum type,
                        const void* voxels) {
-  const auto io = files::make_image_io(*files::format_of(file), file);
+  const files::Format format = *files::format_of(file);
+  const auto io = files::make_image_io(format, file);
+  if (!geometry.oriented && format == files::Format::nrrd) {
+    itk::EncapsulateMetaData<std::string>(io->GetMetaDataDictionary(), "NRRD_space", "3D-right-handed");
+  }
   io->SetNumberOfDimensions(3);
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetComponentType(type);
@@ -69,13 +98,16 @@ Status write_image(const std::filesystem::path& target, const Geometry& geometry
   const files::ItkScope scope;
   const auto itk_name =
       files::ItkName::create(*files::format_of(target), file->temporary_path(), files::ItkName::Use::write);
-  if (!itk_name) return fail(ErrorKind::write, "{}", itk_name.error().message);
+  if (!itk_name) return pass_on(itk_name);
   try {
     write_through_itk(itk_name->path(), geometry, type, voxels);
   } catch (const std::exception& exception) {
     return fail(ErrorKind::write, "{}: cannot write: {}", name, files::one_line(exception));
   }
-  if (const auto status = verify(file->temporary_path(), geometry); !status) {
+  const bool has_codes_to_clear = files::format_of(target) == files::Format::nifti && !geometry.oriented &&
+                                  can_leave_sides_open(target, geometry);
+  const bool is_whole = !has_codes_to_clear || clear_nifti_place(file->temporary_path());
+  if (!is_whole || !verify(file->temporary_path(), geometry)) {
     return fail(ErrorKind::write, "{}: cannot write: the file is not whole (is the disk full?)", name);
   }
   return file->commit();
@@ -105,22 +137,23 @@ std::vector<To> rescaled(const std::vector<From>& stored, double slope, double i
 }
 
 template <class T>
-Status write_rescaled(const Volume& volume, const std::vector<T>& stored, const std::filesystem::path& file) {
+Status write_rescaled(const Volume& volume, const Geometry& grid, const std::vector<T>& stored,
+                      const std::filesystem::path& file) {
   const double slope = volume.slope;
   const double intercept = volume.intercept;
-  if (slope == 1.0 && intercept == 0.0) return write_vector(file, volume.geometry, kComponent<T>, stored);
+  if (slope == 1.0 && intercept == 0.0) return write_vector(file, grid, kComponent<T>, stored);
   if (std::is_integral_v<T> && slope == std::floor(slope) && intercept == std::floor(intercept)) {
     const auto [low, high] = volume.range();
     if (holds<std::int16_t>(low, high)) {
-      return write_vector(file, volume.geometry, kComponent<std::int16_t>,
+      return write_vector(file, grid, kComponent<std::int16_t>,
                           rescaled<std::int16_t>(stored, slope, intercept));
     }
     if (holds<std::uint16_t>(low, high)) {
-      return write_vector(file, volume.geometry, kComponent<std::uint16_t>,
+      return write_vector(file, grid, kComponent<std::uint16_t>,
                           rescaled<std::uint16_t>(stored, slope, intercept));
     }
   }
-  return write_vector(file, volume.geometry, kComponent<float>, rescaled<float>(stored, slope, intercept));
+  return write_vector(file, grid, kComponent<float>, rescaled<float>(stored, slope, intercept));
 }
 
 }  // namespace
@@ -130,12 +163,21 @@ bool is_writable_volume_file(const std::filesystem::path& file) {
          files::has_suffix(file, ".nrrd") || files::has_suffix(file, ".mha");
 }
 
-Status write_volume_file(const Volume& volume, const std::filesystem::path& file) {
+bool can_leave_sides_open(const std::filesystem::path& file, const Geometry& grid) {
+  const auto format = files::format_of(file);
+  return format == files::Format::nrrd ||
+         (format == files::Format::nifti && grid.origin_mm == glm::dvec3(0.0) &&
+          grid.direction == glm::dmat3(1.0));
+}
+
+Status write_volume_file(const Volume& volume, const std::filesystem::path& file, UnknownSides sides) {
   if (volume.geometry.voxel_count() <= 0) {
     return fail(ErrorKind::internal, "{}: the volume is empty", file.string());
   }
+  Geometry grid = volume.geometry;
+  if (sides == UnknownSides::stated) grid.oriented = true;
   try {
-    return std::visit([&](const auto& stored) { return write_rescaled(volume, stored, file); },
+    return std::visit([&](const auto& stored) { return write_rescaled(volume, grid, stored, file); },
                       volume.voxels);
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::capability, "{}: not enough memory for {} rescaled voxels", file.string(),

@@ -1,6 +1,7 @@
 // The NRRD header: lines "field: value" up to an empty one (http://teem.sourceforge.net/nrrd/format.html).
 #include <algorithm>
 #include <bit>
+#include <set>
 #include <utility>
 
 #include "core/checked.h"
@@ -164,6 +165,25 @@ Status take_nrrd_unit(const TextHeader& header, const std::string& name, PixelLa
   return {};
 }
 
+// The space along whose axes directions and origin are given, by the spellings of NRRD's own library. In some
+// versions ITK turns the wrong axis of left-anterior-superior, and it turns none of a space with time.
+Status take_nrrd_space(const TextHeader& header, const std::string& name, PixelLayout& layout) {
+  static const std::set<std::string> kRight = {
+      "rightanteriorsuperior", "ras", "leftposteriorsuperior", "lps", "leftposteriorsuperiortime", "lpst"};
+  static const std::set<std::string> kTurned = {
+      "leftanteriorsuperior", "las", "leftanteriorsuperiortime", "last", "rightanteriorsuperiortime", "rast"};
+  const std::string stated = header.find("space").value_or("");
+  std::string space = lower(stated);
+  std::erase_if(space, [](char c) { return c == '-' || c == ' '; });
+  if (kTurned.contains(space)) {
+    return fail(ErrorKind::input,
+                "{}: space: '{}' is not supported; left-posterior-superior and right-anterior-superior are",
+                name, stated);
+  }
+  layout.oriented = kRight.contains(space);
+  return {};
+}
+
 }  // namespace
 
 Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
@@ -176,6 +196,7 @@ Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
   TIDEMARK_TRY(choose_byte_order(*header, name, layout));
   TIDEMARK_TRY(require_finite_fields(*header, file, {"space directions", "space origin", "spacings"}));
   TIDEMARK_TRY(take_nrrd_unit(*header, name, layout));
+  TIDEMARK_TRY(take_nrrd_space(*header, name, layout));
   auto data = header->find("data file");
   if (!data) data = header->find("datafile");
   if (data) {
@@ -184,7 +205,6 @@ Result<PixelLayout> locate_nrrd(const std::filesystem::path& file) {
     layout.file = *path;
     layout.offset = 0;
   }
-  layout.oriented = header->find("space").has_value();
   return layout;
 }
 

@@ -24,33 +24,62 @@ double percentile(std::vector<Stored>& values, double percent) {
   return std::lerp(value, static_cast<double>(*std::min_element(at + 1, values.end())), share);
 }
 
+// The sums over the balls around the voxels of a run, and how many voxels of the image each of them has.
+struct BallSums {
+  std::vector<double> sums;
+  std::vector<std::int64_t> counts;
+};
+
+// Adds a row of the ball for each voxel of the run that begins at `voxel`. `so_far` is room for the sums
+// along that row of the image.
 template <class Stored>
-double highest_ball(const Region& region, const TypedVolume<Stored>& image) {
+void add_row(const TypedVolume<Stored>& image, const BallRow& row, Index3 voxel, std::vector<double>& so_far,
+             BallSums& balls) {
+  const auto length = static_cast<std::int64_t>(balls.sums.size());
+  const std::int64_t width = image.geometry.size.x;
+  const Index3 first(std::max<std::int64_t>(voxel.x - row.half, 0), voxel.y + row.j, voxel.z + row.k);
+  if (!image.geometry.contains(first)) return;
+  const Stored* const values = image.stored.data() + image.geometry.offset(first);
+  so_far.assign(1, 0.0);
+  for (std::int64_t x = first.x; x < std::min(voxel.x + length + row.half, width); ++x)
+    so_far.push_back(so_far.back() + static_cast<double>(values[x - first.x]));
+  for (std::int64_t n = 0; n < length; ++n) {
+    const std::int64_t from = std::max<std::int64_t>(voxel.x + n - row.half, 0) - first.x;
+    const std::int64_t to = std::min(voxel.x + n + row.half + 1, width) - first.x;
+    balls.sums[static_cast<std::size_t>(n)] +=
+        so_far[static_cast<std::size_t>(to)] - so_far[static_cast<std::size_t>(from)];
+    balls.counts[static_cast<std::size_t>(n)] += to - from;
+  }
+}
+
+// Fails (ErrorKind::cancelled).
+template <class Stored>
+Result<double> highest_ball(const Region& region, const TypedVolume<Stored>& image,
+                            const Progress& progress) {
   constexpr double kBallMm3 = 1000.0;
   const Ball ball = ball_of(image.geometry, std::cbrt(3.0 * kBallMm3 / (4.0 * std::numbers::pi)));
   double highest = std::numeric_limits<double>::lowest();
+  BallSums balls;
+  std::vector<double> so_far;
   region.for_each_run([&](Index3 voxel, std::int64_t length) {
-    for (const std::int64_t end = voxel.x + length; voxel.x < end; ++voxel.x) {
-      double sum = 0.0;
-      std::int64_t count = 0;
-      for (const BallRow& row : ball.rows) {
-        const Index3 first(std::max<std::int64_t>(voxel.x - row.half, 0), voxel.y + row.j, voxel.z + row.k);
-        if (!image.geometry.contains(first)) continue;
-        const std::int64_t last = std::min(voxel.x + row.half, image.geometry.size.x - 1);
-        const Stored* const values = image.stored.data() + image.geometry.offset(first);
-        sum = std::accumulate(values, values + (last - first.x + 1), sum);
-        count += last - first.x + 1;
-      }
-      highest = std::max(highest, image.slope * sum / static_cast<double>(count) + image.intercept);
+    if (progress.cancelled()) return;
+    balls.sums.assign(static_cast<std::size_t>(length), 0.0);
+    balls.counts.assign(static_cast<std::size_t>(length), 0);
+    for (const BallRow& row : ball.rows) add_row(image, row, voxel, so_far, balls);
+    for (std::size_t n = 0; n < balls.sums.size(); ++n) {
+      const double mean =
+          image.slope * balls.sums[n] / static_cast<double>(balls.counts[n]) + image.intercept;
+      highest = std::max(highest, mean);
     }
   });
+  if (progress.cancelled()) return cancelled_error();
   return highest;
 }
 
 }  // namespace
 
-InsideValues values_inside(const Region& region, const Volume& image) {
-  return with_type(image, [&]<class Stored>(const TypedVolume<Stored>& typed) {
+Result<InsideValues> values_inside(const Region& region, const Volume& image, const Progress& progress) {
+  return with_type(image, [&]<class Stored>(const TypedVolume<Stored>& typed) -> Result<InsideValues> {
     std::vector<Stored> values;
     region.for_each_run([&](Index3 voxel, std::int64_t length) {
       const auto first = typed.stored.begin() + typed.geometry.offset(voxel);
@@ -76,7 +105,9 @@ InsideValues values_inside(const Region& region, const Volume& image) {
     }
     if (image.unit.starts_with("SUV")) {
       const double ml = count * image.geometry.voxel_volume_ml();
-      inside.uptake = Uptake{highest_ball(region, typed), inside.mean * ml};
+      const auto peak = highest_ball(region, typed, progress);
+      if (!peak) return pass_on(peak);
+      inside.uptake = Uptake{*peak, inside.mean * ml};
     }
     return inside;
   });

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "core/progress.h"
 #include "core/region.h"
 
 namespace tidemark::imaging {
@@ -28,7 +29,7 @@ struct InsideValues {
   std::optional<Uptake> uptake;                           // where the image's unit is one of uptake
 };
 
-// The region lies in the image's grid, and is not empty.
-[[nodiscard]] InsideValues values_inside(const Region& region, const Volume& image);
+// The region lies in the image's grid, and is not empty. Fails (ErrorKind::cancelled).
+Result<InsideValues> values_inside(const Region& region, const Volume& image, const Progress& progress = {});
 
 }  // namespace tidemark::imaging

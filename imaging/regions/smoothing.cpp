@@ -1,8 +1,11 @@
 #include "imaging/regions/smoothing.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <span>
+#include <vector>
 
 #include "core/thread_pool.h"
 #include "imaging/regions/ball.h"
@@ -12,16 +15,16 @@ namespace {
 
 constexpr int kLevels = 65536;
 
-// Calls slab(first slice, end, member) for slabs of the slices of a box, on all processors. False: cancelled.
+// Calls slab(first slice, end) for slabs of the slices of a box, on all processors. False: cancelled.
 template <class Slab>
 bool for_each_slab(ThreadPool& pool, const VoxelRange& box, std::int64_t thickness, const Progress& progress,
                    const Slab& slab) {
   const std::int64_t slices = box.high.z - box.low.z;
   std::int64_t done = 0;
   std::mutex reporting;
-  pool.for_each(slices, thickness, [&](std::int64_t begin, std::int64_t end, int member) {
+  pool.for_each(slices, thickness, [&](std::int64_t begin, std::int64_t end, int /*member*/) {
     if (progress.cancelled()) return;
-    slab(box.low.z + begin, box.low.z + end, member);
+    slab(box.low.z + begin, box.low.z + end);
     const std::lock_guard lock(reporting);
     done += end - begin;
     progress(static_cast<double>(done) / static_cast<double>(slices), "smoothing");
@@ -138,31 +141,30 @@ Result<Region> smoothed_by_median(const Region& region, const Geometry& grid, do
   const auto length = static_cast<std::size_t>(box.high.x - box.low.x);
   Region result(box);
   ThreadPool pool;
-  const bool finished =
-      for_each_slab(pool, box, thickness_of(box, ball.reach.z, pool), progress,
-                    [&](std::int64_t begin, std::int64_t end, int /*member*/) {
-                      const SummedRows sums(rows, box, ball.reach, begin, end);
-                      std::vector<std::uint16_t> counts(length);
-                      for (std::int64_t k = begin; k < end; ++k) {
-                        for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
-                          std::fill(counts.begin(), counts.end(), std::uint16_t{0});
-                          bool any = false;
-                          for (const BallRow& part : ball.rows) {
-                            const std::uint16_t* sum = sums.row(j + part.j, k + part.k);
-                            if (sum == nullptr) continue;
-                            any = true;
-                            const std::uint16_t* const low = sum + (ball.reach.x - part.half);
-                            const std::uint16_t* const high = sum + (ball.reach.x + part.half + 1);
-                            for (std::size_t i = 0; i < length; ++i)
-                              counts[i] = static_cast<std::uint16_t>(counts[i] + high[i] - low[i]);
-                          }
-                          for (std::size_t i = 0; any && i < length; ++i) {
-                            if (2 * std::int64_t{counts[i]} > voxels)
-                              result.add({box.low.x + static_cast<std::int64_t>(i), j, k});
-                          }
-                        }
-                      }
-                    });
+  const bool finished = for_each_slab(
+      pool, box, thickness_of(box, ball.reach.z, pool), progress, [&](std::int64_t begin, std::int64_t end) {
+        const SummedRows sums(rows, box, ball.reach, begin, end);
+        std::vector<std::uint16_t> counts(length);
+        for (std::int64_t k = begin; k < end; ++k) {
+          for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
+            std::fill(counts.begin(), counts.end(), std::uint16_t{0});
+            bool any = false;
+            for (const BallRow& part : ball.rows) {
+              const std::uint16_t* sum = sums.row(j + part.j, k + part.k);
+              if (sum == nullptr) continue;
+              any = true;
+              const std::uint16_t* const low = sum + (ball.reach.x - part.half);
+              const std::uint16_t* const high = sum + (ball.reach.x + part.half + 1);
+              for (std::size_t i = 0; i < length; ++i)
+                counts[i] = static_cast<std::uint16_t>(counts[i] + high[i] - low[i]);
+            }
+            for (std::size_t i = 0; any && i < length; ++i) {
+              if (2 * std::int64_t{counts[i]} > voxels)
+                result.add({box.low.x + static_cast<std::int64_t>(i), j, k});
+            }
+          }
+        }
+      });
   if (!finished) return cancelled_error();
   return result;
 }
@@ -190,7 +192,8 @@ void add_lines(float weight, const float* before, const float* behind, std::size
   for (std::size_t i = 0; i < length; ++i) sum[i] += weight * (before[i] + behind[i]);
 }
 
-// The region after the Gaussian, slice by slice of a box.
+// The region after the Gaussian, slice by slice of a box. All threads work on the same slice: with slices of
+// its own each would take as much memory as they do together.
 class Blur {
  public:
   Blur(const Region& region, const Geometry& grid, double sigma_mm)
@@ -199,61 +202,81 @@ class Blur {
         reach_{std::ssize(weights_[0]) - 1, std::ssize(weights_[1]) - 1, std::ssize(weights_[2]) - 1},
         box_(region.bounds().widened(reach_, grid.size)),
         rows_(region, box_, reach_, grid.size),
-        size_(box_.high - box_.low) {}
+        size_(box_.high - box_.low),
+        length_(static_cast<std::size_t>(size_.x)),
+        lines_(length_ * static_cast<std::size_t>(size_.y + 2 * reach_.y)),
+        ring_(static_cast<std::size_t>(std::min(2 * reach_.z + 1, size_.z)),
+              std::vector<float>(length_ * static_cast<std::size_t>(size_.y))) {}
 
   [[nodiscard]] const VoxelRange& box() const { return box_; }
-  [[nodiscard]] std::int64_t reach() const { return reach_.z; }
 
-  // Calls slice(k, values) for the slices [begin, end), with size.x * size.y values from 0 to 1.
-  template <class Slice>
-  void blur(std::int64_t begin, std::int64_t end, const Slice& slice) const {
-    const auto area = static_cast<std::size_t>(size_.x * size_.y);
-    std::vector<std::vector<float>> ring(static_cast<std::size_t>(2 * reach_.z + 1));
-    std::vector<float> sum(area);
-    const auto at = [&](std::int64_t k) -> std::vector<float>& {
-      return ring[static_cast<std::size_t>((k - begin + reach_.z) % std::ssize(ring))];
-    };
-    for (std::int64_t k = begin - reach_.z; k < begin + reach_.z; ++k) blur_in_slice(k, at(k));
-    for (std::int64_t k = begin; k < end; ++k) {
-      blur_in_slice(k + reach_.z, at(k + reach_.z));
-      const std::vector<float>& middle = at(k);
-      for (std::size_t i = 0; i < area; ++i) sum[i] = weights_[2][0] * middle[i];
-      for (std::int64_t n = 1; n <= reach_.z; ++n)
-        add_lines(weights_[2][static_cast<std::size_t>(n)], at(k - n).data(), at(k + n).data(), area,
-                  sum.data());
-      slice(k, sum);
+  // Calls row(first voxel, values from 0 to 1, member of the pool) for all rows of the box. False: cancelled.
+  template <class Row>
+  bool blur(ThreadPool& pool, const Progress& progress, const Row& row) {
+    std::int64_t next = 0;  // of the slices that the ring has not had
+    for (std::int64_t k = 0; k < size_.z; ++k) {
+      for (; next < std::min(k + reach_.z + 1, size_.z) && !progress.cancelled(); ++next)
+        blur_in_slice(pool, next);
+      if (progress.cancelled()) return false;
+      pool.for_each(size_.y, kRows, [&](std::int64_t begin, std::int64_t end, int member) {
+        std::vector<float> sum(length_);
+        for (std::int64_t j = begin; j < end; ++j) {
+          const float* const middle = blurred(j, k);
+          for (std::size_t i = 0; i < length_; ++i) sum[i] = weights_[2][0] * middle[i];
+          for (std::int64_t n = 1; n <= reach_.z; ++n)
+            add_lines(weights_[2][static_cast<std::size_t>(n)], blurred(j, k - n), blurred(j, k + n), length_,
+                      sum.data());
+          row(box_.low + Index3(0, j, k), std::span<const float>(sum), member);
+        }
+      });
+      progress(static_cast<double>(k + 1) / static_cast<double>(size_.z), "smoothing");
     }
+    return true;
   }
 
  private:
+  static constexpr std::int64_t kRows = 4;  // at a time
+
+  // Rows and slices are counted from the box's first ones.
+  [[nodiscard]] std::vector<float>& slice(std::int64_t k) {
+    return ring_[static_cast<std::size_t>(k) % ring_.size()];
+  }
+  // Beyond the box its outermost slice goes on: the grid ends there, or the region reaches less far.
+  [[nodiscard]] const float* blurred(std::int64_t j, std::int64_t k) {
+    return slice(std::clamp<std::int64_t>(k, 0, size_.z - 1)).data() + j * size_.x;
+  }
+
   // Along i, then along j.
-  void blur_in_slice(std::int64_t k, std::vector<float>& values) const {
-    const auto length = static_cast<std::size_t>(size_.x);
-    const std::int64_t rows = size_.y + 2 * reach_.y;
-    std::vector<float> wide(length + 2 * static_cast<std::size_t>(reach_.x));
-    std::vector<float> lines(length * static_cast<std::size_t>(rows), 0.0F);
-    for (std::int64_t row = 0; row < rows; ++row) {
-      const std::int64_t j = box_.low.y - reach_.y + row;
-      if (rows_.empty(j, k)) continue;
-      rows_.read(j, k, [&](std::int64_t n, std::uint32_t voxel) {
-        wide[static_cast<std::size_t>(n)] = static_cast<float>(voxel);
-      });
-      float* const line = lines.data() + static_cast<std::size_t>(row) * length;
-      const float* const middle = wide.data() + reach_.x;
-      for (std::size_t i = 0; i < length; ++i) line[i] = weights_[0][0] * middle[i];
-      for (std::int64_t n = 1; n <= reach_.x; ++n)
-        add_lines(weights_[0][static_cast<std::size_t>(n)], middle - n, middle + n, length, line);
-    }
-    values.assign(length * static_cast<std::size_t>(size_.y), 0.0F);
-    for (std::int64_t j = 0; j < size_.y; ++j) {
-      float* const sum = values.data() + static_cast<std::size_t>(j) * length;
-      const float* const middle = lines.data() + static_cast<std::size_t>(j + reach_.y) * length;
-      const auto step = static_cast<std::ptrdiff_t>(length);
-      for (std::size_t i = 0; i < length; ++i) sum[i] = weights_[1][0] * middle[i];
-      for (std::int64_t n = 1; n <= reach_.y; ++n)
-        add_lines(weights_[1][static_cast<std::size_t>(n)], middle - n * step, middle + n * step, length,
-                  sum);
-    }
+  void blur_in_slice(ThreadPool& pool, std::int64_t k) {
+    pool.for_each(size_.y + 2 * reach_.y, kRows, [&](std::int64_t begin, std::int64_t end, int /*member*/) {
+      std::vector<float> wide(length_ + 2 * static_cast<std::size_t>(reach_.x));
+      for (std::int64_t row = begin; row < end; ++row) {
+        const std::int64_t j = box_.low.y - reach_.y + row;
+        float* const line = lines_.data() + row * size_.x;
+        if (rows_.empty(j, box_.low.z + k)) {
+          std::fill_n(line, length_, 0.0F);
+          continue;
+        }
+        rows_.read(j, box_.low.z + k, [&](std::int64_t n, std::uint32_t voxel) {
+          wide[static_cast<std::size_t>(n)] = static_cast<float>(voxel);
+        });
+        const float* const middle = wide.data() + reach_.x;
+        for (std::size_t i = 0; i < length_; ++i) line[i] = weights_[0][0] * middle[i];
+        for (std::int64_t n = 1; n <= reach_.x; ++n)
+          add_lines(weights_[0][static_cast<std::size_t>(n)], middle - n, middle + n, length_, line);
+      }
+    });
+    float* const values = slice(k).data();
+    pool.for_each(size_.y, kRows, [&](std::int64_t begin, std::int64_t end, int /*member*/) {
+      for (std::int64_t j = begin; j < end; ++j) {
+        float* const sum = values + j * size_.x;
+        const float* const middle = lines_.data() + (j + reach_.y) * size_.x;
+        for (std::size_t i = 0; i < length_; ++i) sum[i] = weights_[1][0] * middle[i];
+        for (std::int64_t n = 1; n <= reach_.y; ++n)
+          add_lines(weights_[1][static_cast<std::size_t>(n)], middle - n * size_.x, middle + n * size_.x,
+                    length_, sum);
+      }
+    });
   }
 
   std::array<std::vector<float>, 3> weights_;
@@ -261,6 +284,9 @@ class Blur {
   VoxelRange box_;
   Rows rows_;
   Index3 size_;
+  std::size_t length_;                    // of a row
+  std::vector<float> lines_;              // of a slice, blurred along i
+  std::vector<std::vector<float>> ring_;  // the last slices, as many as one is made of
 };
 
 int level_of(float value) {
@@ -284,38 +310,28 @@ Result<Region> smoothed_by_gaussian(const Region& region, const Geometry& grid, 
                                     const Progress& progress) {
   TIDEMARK_TRY(check(sigma_mm, "the standard deviation of smoothing"));
   if (region.empty()) return Region();
-  const Blur blur(region, grid, sigma_mm);
-  const VoxelRange& box = blur.box();
+  Blur blur(region, grid, sigma_mm);
   ThreadPool pool;
-  const std::int64_t thickness = thickness_of(box, blur.reach(), pool);
   // Twice, because its values would take more memory than the volume.
   std::vector<std::vector<std::int64_t>> voxels_at(static_cast<std::size_t>(pool.threads()),
                                                    std::vector<std::int64_t>(kLevels));
-  bool finished = for_each_slab(
-      pool, box, thickness, progress.part(0, 2), [&](std::int64_t begin, std::int64_t end, int member) {
-        auto& counts = voxels_at[static_cast<std::size_t>(member)];
-        blur.blur(begin, end, [&](std::int64_t /*k*/, const std::vector<float>& values) {
-          for (const float value : values) ++counts[static_cast<std::size_t>(level_of(value))];
-        });
-      });
-  if (!finished) return cancelled_error();
+  const auto count = [&](Index3 /*first*/, std::span<const float> values, int member) {
+    auto& counts = voxels_at[static_cast<std::size_t>(member)];
+    for (const float value : values) ++counts[static_cast<std::size_t>(level_of(value))];
+  };
+  if (!blur.blur(pool, progress.part(0, 2), count)) return cancelled_error();
   for (std::size_t member = 1; member < voxels_at.size(); ++member) {
     for (std::size_t level = 0; level < kLevels; ++level) voxels_at[0][level] += voxels_at[member][level];
   }
   const int level = level_with(voxels_at[0], region.count());
-  Region result(box);
-  finished = for_each_slab(pool, box, thickness, progress.part(1, 2),
-                           [&](std::int64_t begin, std::int64_t end, int /*member*/) {
-                             blur.blur(begin, end, [&](std::int64_t k, const std::vector<float>& values) {
-                               const float* value = values.data();
-                               for (std::int64_t j = box.low.y; j < box.high.y; ++j) {
-                                 for (std::int64_t i = box.low.x; i < box.high.x; ++i, ++value) {
-                                   if (level_of(*value) >= level) result.add({i, j, k});
-                                 }
-                               }
-                             });
-                           });
-  if (!finished) return cancelled_error();
+  Region result(blur.box());
+  const auto take = [&](Index3 voxel, std::span<const float> values, int /*member*/) {
+    for (const float value : values) {
+      if (level_of(value) >= level) result.add(voxel);
+      ++voxel.x;
+    }
+  };
+  if (!blur.blur(pool, progress.part(1, 2), take)) return cancelled_error();
   return result;
 }
 

@@ -17,8 +17,8 @@ Result<Region> smoothed_by_median(const Region& region, const Geometry& grid, do
                                   const Progress& progress = {});
 
 // The region after a Gaussian of that standard deviation, at the level that keeps its volume as nearly as
-// levels of 1/65,535 allow. Fails (ErrorKind::usage) for a sigma that is not in (0, kWidestSmoothing] mm;
-// (ErrorKind::cancelled).
+// levels of 1/65,535 allow. It takes memory for the floats of 6 sigma of slices, on any number of threads.
+// Fails (ErrorKind::usage) for a sigma that is not in (0, kWidestSmoothing] mm; (ErrorKind::cancelled).
 Result<Region> smoothed_by_gaussian(const Region& region, const Geometry& grid, double sigma_mm,
                                     const Progress& progress = {});
 

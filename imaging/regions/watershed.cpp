@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <glm/common.hpp>
 #include <queue>
 
 #include "imaging/regions/islands.h"
@@ -13,7 +13,7 @@
 namespace tidemark::imaging {
 namespace {
 
-constexpr std::uint16_t kNoPart = 0;
+constexpr std::uint8_t kNoPart = 0;
 constexpr std::int64_t kVoxelsBetweenLooks = 1 << 16;  // at the progress
 
 // The voxels of a box, i fastest.
@@ -66,8 +66,8 @@ class Flood {
         distance_mm_(distances(region, box_, grid)),
         parts_(distance_mm_.size(), kNoPart) {}
 
-  [[nodiscard]] std::uint16_t part(Index3 voxel) const { return parts_[at(voxel)]; }
-  void take(Index3 voxel, std::uint16_t part) {
+  [[nodiscard]] std::uint8_t part(Index3 voxel) const { return parts_[at(voxel)]; }
+  void take(Index3 voxel, std::uint8_t part) {
     parts_[at(voxel)] = part;
     open_.push({distance_mm_[at(voxel)], turn_++, box_.offset(voxel)});
   }
@@ -120,7 +120,7 @@ class Flood {
   const Region& region_;
   Box box_;
   std::vector<float> distance_mm_;
-  std::vector<std::uint16_t> parts_;
+  std::vector<std::uint8_t> parts_;
   std::priority_queue<Drop> open_;
   std::int64_t turn_ = 0;
 };
@@ -137,9 +137,9 @@ void for_each_voxel(const Region& region, const Visit& visit) {
 Result<std::vector<Region>> watershed(const Region& region, const Region& seeds, const Geometry& grid,
                                       const Progress& progress) {
   const Islands islands(seeds);
-  if (islands.count() > std::numeric_limits<std::uint16_t>::max())
+  if (islands.count() > kMostSeeds)
     return fail(ErrorKind::usage, "there are {} seeds: at most {} divide a region", islands.count(),
-                std::numeric_limits<std::uint16_t>::max());
+                kMostSeeds);
   const Region all = united(region, seeds);
   if (all.empty()) return std::vector<Region>(islands.count());
   // ITK's watershed from markers knows no mask: it would flood all of the box.
@@ -147,7 +147,7 @@ Result<std::vector<Region>> watershed(const Region& region, const Region& seeds,
   std::vector<Index3> deepest(islands.count(), Index3(-1));
   for_each_voxel(seeds, [&](Index3 voxel) {
     const std::size_t island = *islands.at(voxel);
-    flood.take(voxel, static_cast<std::uint16_t>(island + 1));
+    flood.take(voxel, static_cast<std::uint8_t>(island + 1));
     Index3& best = deepest[island];
     if (best.x < 0 || flood.depth_mm(voxel) > flood.depth_mm(best)) best = voxel;
   });
@@ -158,10 +158,18 @@ Result<std::vector<Region>> watershed(const Region& region, const Region& seeds,
     if (progress.cancelled()) return cancelled_error();
     progress(static_cast<double>(done) / whole, "watershed");
   }
-  std::vector<Region> results(islands.count(), Region(all.bounds()));
-  for_each_voxel(all, [&](Index3 voxel) {
-    if (flood.part(voxel) != kNoPart) results[flood.part(voxel) - 1U].add(voxel);
+  const auto for_each_taken = [&](const auto& visit) {
+    for_each_voxel(all, [&](Index3 voxel) {
+      if (flood.part(voxel) != kNoPart) visit(voxel, flood.part(voxel) - 1U);
+    });
+  };
+  std::vector<VoxelRange> boxes(islands.count(), VoxelRange{grid.size, Index3(0)});
+  for_each_taken([&](Index3 voxel, std::size_t part) {
+    boxes[part].low = glm::min(boxes[part].low, voxel);
+    boxes[part].high = glm::max(boxes[part].high, voxel + Index3(1));
   });
+  std::vector<Region> results(boxes.begin(), boxes.end());
+  for_each_taken([&](Index3 voxel, std::size_t part) { results[part].add(voxel); });
   return results;
 }
 

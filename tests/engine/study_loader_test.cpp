@@ -227,10 +227,12 @@ class StudyLoaderTest : public QObject {
     QCOMPARE(wait_for(loader).message, QString());
     qInfo("making a phantom of 256 x 256 x 175: the largest gap of a 5 ms timer was %.1f ms",
           making.largest_gap_ms());
+    QVERIFY2(making.busy_share() < 0.25, qPrintable(QString::number(making.busy_share())));
     test::Heartbeat loading;
     loader.load(folder_.path(), {});
     QCOMPARE(wait_for(loader).message, QString());
     qInfo("loading 81 slices: the largest gap of a 5 ms timer was %.1f ms", loading.largest_gap_ms());
+    QVERIFY2(loading.busy_share() < 0.25, qPrintable(QString::number(loading.busy_share())));
   }
 
   void names_are_never_the_patients() {

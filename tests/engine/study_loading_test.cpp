@@ -33,6 +33,7 @@ class StudyLoadingTest : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!loaded.isEmpty() || !failed.isEmpty(), 60'000);
     qInfo("loaded in %lld ms; the largest gap of a 5 ms timer was %.1f ms", clock.elapsed(),
           heartbeat.largest_gap_ms());
+    QVERIFY2(heartbeat.busy_share() < 0.25, qPrintable(QString::number(heartbeat.busy_share())));
     QVERIFY2(failed.isEmpty(), failed.isEmpty() ? "" : qPrintable(failed[0][0].toString()));
     const auto study = loaded[0][0].value<std::shared_ptr<const engine::LoadedStudy>>();
     QCOMPARE(qlonglong{study->volume->geometry.voxel_count()}, voxels);

@@ -330,6 +330,7 @@ class DicomQuantityTest : public QObject {
       QTest::newRow(why) << QByteArray(modality) << change << QString(why);
     };
     row("it states no unit", [](DcmDataset& d) { put_mapping(d, "1"); });
+    row("its unit is none of UCUM", [](DcmDataset& d) { put_mapping(d, "<b>ms"); });
     row("it leaves stored values without meaning", [](DcmDataset& d) { put_mapping(d, "ms", 4095); });
     row(
         "it is used in MR only", [](DcmDataset& d) { put_mapping(d, "[hnsf'U]"); }, "CT");

@@ -186,7 +186,9 @@ class DicomSeriesTest : public QObject {
     const imaging::Series nothing = test::only_series(folder.path());
     QCOMPARE(glm::dvec2(nothing.geometry.spacing_mm), glm::dvec2(1.0));
     QVERIFY(says(nothing.warnings, "PixelSpacing (0028,0030) is missing: a pixel counts as 1 mm"));
-    QVERIFY(imaging::load_dicom(nothing));
+    const auto volume = imaging::load_dicom(nothing);
+    QVERIFY(volume && !volume->geometry.oriented);
+    QVERIFY(!imaging::by_policy(nothing, {}).geometry.oriented);
   }
 
   void several_images_without_a_place_are_no_volume_still() {

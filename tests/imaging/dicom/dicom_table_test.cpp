@@ -292,6 +292,7 @@ constexpr const char* kHead =
     "| study | what it is | read | transfer syntax | voxels | spacing, mm | axes | pydicom | dcm2niix | "
     "verdict |\n"
     "|---|---|---|---|---|---|---|---|---|---|\n";
+constexpr const char* kOtherPeer = "the table is of another dcm2niix than the one that is installed";
 constexpr std::string_view kMark = "<!-- From here on written by dicom_table_test. -->\n";
 
 std::string page() {
@@ -377,11 +378,12 @@ class DicomTableTest : public QObject {
   }
 
   void every_difference_from_dcm2niix_is_explained() {
-    if (has_peer_) expect_explained(kDcm2niix, &Findings::peer_differences);
+    if (!has_peer_) QSKIP(kOtherPeer);
+    expect_explained(kDcm2niix, &Findings::peer_differences);
   }
 
   void the_page_has_this_table() {
-    if (!has_peer_) return;
+    if (!has_peer_) QSKIP(kOtherPeer);
     std::string table = kHead;
     for (const Findings& one : findings_) table += row_of(one);
     table += notes();

@@ -263,6 +263,45 @@ class SplitSeriesTest : public QObject {
     QCOMPARE(found[0].files.size(), std::size_t{5});
   }
 
+  // Those of the second lie right behind those of the first.
+  void images_of_two_patients_or_studies_are_no_volume_data() {
+    QTest::addColumn<bool>("by_patient");
+    QTest::addColumn<QString>("series_uid");
+    for (const char* uid : {"1.2.3", ""}) {
+      QTest::addRow("patients, %s", *uid != '\0' ? "one series" : "no series") << true << QString(uid);
+      QTest::addRow("studies, %s", *uid != '\0' ? "one series" : "no series") << false << QString(uid);
+    }
+  }
+  void images_of_two_patients_or_studies_are_no_volume() {
+    QFETCH(bool, by_patient);
+    QFETCH(QString, series_uid);
+    const auto slices = [&](const char* second) {
+      return series_of(1, 8, [&](imaging::SliceHeader& s, int, int k) {
+        s.series_uid = series_uid.toStdString();
+        s.patient.id = by_patient && k >= 5 ? second : "A";
+        s.study_uid = !by_patient && k >= 5 ? second : "1.1";
+      });
+    };
+    const auto found = imaging::group_series(slices(by_patient ? "B" : "1.2"));
+    QCOMPARE(found.size(), std::size_t{2});
+    for (const imaging::Series& series : found) {
+      QVERIFY2(series.loadable, series.reason.c_str());
+      QCOMPARE(series.warnings.size(), std::size_t{1});
+      QVERIFY2(series.warnings[0].find("PatientID (0010,0020)") != std::string::npos,
+               series.warnings[0].c_str());
+    }
+    QCOMPARE(found[0].files.size(), std::size_t{5});
+    QCOMPARE(found[1].files.size(), std::size_t{3});
+    QCOMPARE(found[1].patient.id, std::string(by_patient ? "B" : "A"));
+    QCOMPARE(found[1].study_uid, std::string(by_patient ? "1.1" : "1.2"));
+    QVERIFY(found[0].uid.ends_with("#1") && found[1].uid.ends_with("#2"));
+    // Images that name nobody may be the first one's.
+    const auto one = imaging::group_series(slices(""));
+    QCOMPARE(one.size(), std::size_t{1});
+    QVERIFY2(one[0].loadable, one[0].reason.c_str());
+    QVERIFY(one[0].warnings.empty());
+  }
+
   void what_nothing_tells_apart_is_refused_whole() {
     const auto found = imaging::group_series(series_of(2, 4, [](imaging::SliceHeader&, int, int) {}));
     QCOMPARE(found.size(), std::size_t{1});

@@ -78,6 +78,17 @@ class PictureTest : public QObject {
     QVERIFY(says(volume, "how its axes lie"));
   }
 
+  void a_picture_gets_no_sides_by_being_written_as_a_volume() {
+    const Volume volume = read("photo.png", Png{}.with(counting(12)));
+    for (const char* name : {"photo.nii.gz", "photo.nrrd"}) {
+      QCOMPARE(failure(imaging::write_volume_file(volume, folder_ / name)), QString());
+      const auto series = imaging::scan_volume_file(folder_ / name);
+      QCOMPARE(failure(series), QString());
+      QVERIFY2(series->loadable && !series->geometry.oriented, name);
+      QVERIFY(series->geometry == volume.geometry);
+    }
+  }
+
   void greys_of_16_bits_are_kept_exactly() {
     std::string rows;
     for (std::uint32_t v = 0; v < 12; ++v) rows += big(65535 - 257 * v, 2);

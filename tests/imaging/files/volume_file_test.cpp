@@ -188,6 +188,18 @@ class VolumeFileTest : public QObject {
     }
   }
 
+  // ITK reads it under another name, which lies there.
+  void a_suffix_in_another_case_needs_a_temporary_folder() {
+    const TemporaryFolder folder;
+    const Volume volume = counting_volume<std::int16_t>(awkward_grid(), 0);
+    QCOMPARE(failure(imaging::write_volume_file(volume, folder / "A.Nii")), QString());
+    const Variable nowhere("TMPDIR", QByteArray::fromStdString((folder / "absent").string()));
+    const auto read = imaging::read_volume_file(folder / "A.Nii");
+    QVERIFY(!read);
+    QCOMPARE(read.error().kind, ErrorKind::write);
+    QVERIFY2(failure(read).contains("A.Nii: its suffix needs a temporary folder"), qPrintable(failure(read)));
+  }
+
   void nifti_is_turned_from_ras_to_lps() {
     const TemporaryFolder folder;
     NiftiHeader header({4, 4, 4}, 4, 16);
@@ -283,6 +295,50 @@ class VolumeFileTest : public QObject {
     QVERIFY2(failure(refused).contains("v.nrrd: space units: "), qPrintable(failure(refused)));
   }
 
+  void an_nrrd_lies_as_its_space_says_or_is_refused_data() {
+    QTest::addColumn<QString>("space");
+    QTest::addColumn<bool>("refused");
+    QTest::addColumn<bool>("oriented");
+    QTest::addColumn<double>("sign");  // of x and y
+    const auto row = [](const char* space, bool refused, bool oriented, double sign) {
+      QTest::newRow(space) << QString(space) << refused << oriented << sign;
+    };
+    for (const char* space : {"left-posterior-superior", "LPS", "LPST"}) row(space, false, true, 1.0);
+    for (const char* space : {"right-anterior-superior", "Right Anterior Superior", "RAS"})
+      row(space, false, true, -1.0);
+    for (const char* space : {"left-anterior-superior", "leftanteriorsuperior", "LAS"})
+      row(space, true, true, 1.0);
+    for (const char* space : {"right-anterior-superior-time", "RAST", "LAST"}) row(space, true, true, 1.0);
+    for (const char* space : {"scanner-xyz", "3D-right-handed"}) row(space, false, false, 1.0);
+  }
+  void an_nrrd_lies_as_its_space_says_or_is_refused() {
+    QFETCH(QString, space);
+    QFETCH(bool, refused);
+    QFETCH(bool, oriented);
+    QFETCH(double, sign);
+    const bool has_time = space.endsWith("time") || space.endsWith("ST");
+    const TemporaryFolder folder;
+    put(folder / "v.nrrd",
+        fmt::format("NRRD0005\ntype: uchar\ndimension: {}\nspace: {}\nsizes: 2 2 2{}\n"
+                    "space directions: {}\nencoding: raw\nspace origin: {}\n\nabcdefgh",
+                    has_time ? 4 : 3, space.toStdString(), has_time ? " 1" : "",
+                    has_time ? "(2,0,0,0) (0,2,0,0) (0,0,3,0) (0,0,0,1)" : "(2,0,0) (0,2,0) (0,0,3)",
+                    has_time ? "(-10,20,30,0)" : "(-10,20,30)"));
+    const auto series = imaging::scan_volume_file(folder / "v.nrrd");
+    QCOMPARE(failure(series), QString());
+    QCOMPARE(series->loadable, !refused);
+    if (refused) {
+      QVERIFY2(series->reason.find("v.nrrd: space: '" + space.toStdString() + "'") != std::string::npos,
+               series->reason.c_str());
+      return;
+    }
+    QCOMPARE(series->geometry.oriented, oriented);
+    QCOMPARE(series->warnings.empty(), oriented);
+    const Geometry grid = read(folder / "v.nrrd").geometry;
+    QVERIFY(glm::distance(grid.to_patient({0, 0, 0}), glm::dvec3(-10 * sign, 20 * sign, 30)) < 1e-9);
+    QVERIFY(glm::distance(grid.to_patient({1, 1, 1}), glm::dvec3(-8 * sign, 22 * sign, 33)) < 1e-9);
+  }
+
   void nifti_slope_and_intercept_are_applied_once() {
     const TemporaryFolder folder;
     const std::string voxels("\1\2\3\4\5\6\7\10", 8);
@@ -338,6 +394,39 @@ class VolumeFileTest : public QObject {
     QVERIFY(series && series->loadable);
     QCOMPARE(series->warnings.size(), std::size_t{1});
     QVERIFY(read(folder / "v.mha").values() == expected_counting(8, 'a'));
+  }
+
+  // Sides of a patient that came out of nowhere would be believed.
+  void a_volume_whose_sides_nobody_knows_is_written_without_sides() {
+    const TemporaryFolder folder;
+    Volume volume = counting_volume<std::int16_t>(awkward_grid({5, 4, 3}), 3);
+    volume.geometry.oriented = false;
+    const auto is_written = [&](const std::string& name, bool has_sides) {
+      QCOMPARE(failure(imaging::write_volume_file(volume, folder / name)), QString());
+      const auto series = imaging::scan_volume_file(folder / name);
+      QVERIFY2(series && series->loadable, series ? series->reason.c_str() : "");
+      QCOMPARE(series->geometry.oriented, has_sides);
+      QCOMPARE(series->warnings.empty(), has_sides);
+      QCOMPARE(imaging::can_leave_sides_open(name, volume.geometry), !has_sides);
+      const Volume back = read(folder / name);
+      QVERIFY(back.voxels == volume.voxels);
+      QVERIFY(same_grid(back.geometry, volume.geometry, 1e-4));
+    };
+    is_written("v.nrrd", false);
+    // A place in space is worth more: what fits on the study must go on to do so.
+    for (const char* name : {"v.nii", "v.nii.gz", "v.mha"}) is_written(name, true);
+    volume.geometry.direction = glm::dmat3(1.0);
+    volume.geometry.origin_mm = glm::dvec3(0.0);
+    for (const char* name : {"v.nrrd", "v.nii", "v.nii.gz", "V.NII.GZ"}) is_written(name, false);
+    is_written("v.mha", true);
+    const Mask mask{volume.geometry,
+                    std::vector<std::uint8_t>(static_cast<std::size_t>(volume.geometry.voxel_count()), 1)};
+    QCOMPARE(failure(imaging::write_mask_file(mask, folder / "mask.nii.gz")), QString());
+    QVERIFY(!read(folder / "mask.nii.gz").geometry.oriented);
+    // A program that sends back a file with the same place is given one.
+    QCOMPARE(failure(imaging::write_volume_file(volume, folder / "v.nii", imaging::UnknownSides::stated)),
+             QString());
+    QVERIFY(read(folder / "v.nii").geometry.oriented);
   }
 
   void detached_headers_are_read() {

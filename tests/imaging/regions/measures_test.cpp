@@ -246,7 +246,7 @@ class MeasuresTest : public QObject {
     for (const double value : values) mean += value / count;
     double variance = 0.0;
     for (const double value : values) variance += (value - mean) * (value - mean) / count;
-    const imaging::InsideValues found = imaging::values_inside(region, image);
+    const imaging::InsideValues found = imaging::values_inside(region, image).value();
     const auto near = [](double a, double b) { return std::abs(a - b) < 1e-3; };
     QVERIFY(near(found.mean, mean));
     QVERIFY(near(found.standard_deviation, std::sqrt(variance)));
@@ -263,7 +263,21 @@ class MeasuresTest : public QObject {
     QVERIFY(near(found.uptake->peak, peak));
     QVERIFY(std::abs(found.uptake->total_glycolysis - mean * count * 0.048) < 1e-3);
     image.unit = "HU";
-    QVERIFY(!imaging::values_inside(region, image).uptake.has_value());
+    QVERIFY(!imaging::values_inside(region, image)->uptake.has_value());
+  }
+
+  void the_search_for_the_peak_can_be_stopped() {
+    Volume image;
+    image.geometry = grid_of({20, 15, 10}, {4.0, 4.0, 3.0}, kOrigin);
+    image.unit = "SUVbw g/ml";
+    image.voxels = std::vector<float>(static_cast<std::size_t>(image.geometry.voxel_count()), 1.5F);
+    const Region all = whole({Index3(0), image.geometry.size});
+    QCOMPARE(imaging::values_inside(all, image)->uptake->peak, 1.5);
+    std::stop_source stop;
+    stop.request_stop();
+    const auto stopped = imaging::values_inside(all, image, {nullptr, stop.get_token()});
+    QVERIFY(!stopped);
+    QCOMPARE(stopped.error().kind, ErrorKind::cancelled);
   }
 };
 

@@ -1,4 +1,7 @@
 // Regions and what is done with them, against plain loops over all voxels.
+#include <sched.h>
+
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -6,11 +9,13 @@
 
 #include "core/paged_bytes.h"
 #include "core/region.h"
+#include "core/without_exceptions.h"
 #include "imaging/regions/cut.h"
 #include "imaging/regions/fill_slices.h"
 #include "imaging/regions/islands.h"
 #include "imaging/regions/margin.h"
 #include "imaging/regions/smoothing.h"
+#include "tests/support/child_process.h"
 #include "tests/support/grid.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
@@ -258,6 +263,66 @@ class RegionsTest : public QObject {
       QVERIFY(dice(Region(noisy), Region(ball)) < 0.94);
       QCOMPARE(imaging::Islands(*smooth).count(), std::size_t{1});
     }
+  }
+
+  void a_gaussian_weighs_the_surroundings_of_each_voxel() {
+    for (const Geometry& grid : grids()) {
+      for (const double sigma_mm : {1.5, 4.0}) {
+        const Mask mask = rubble(grid, 7);
+        const auto smooth = imaging::smoothed_by_gaussian(Region(mask), grid, sigma_mm);
+        QCOMPARE(failure(smooth), QString());
+        std::vector<double> values(mask.voxels.begin(), mask.voxels.end());
+        for (int axis = 0; axis < 3; ++axis) {
+          const std::vector<double> before = values;
+          const double sigma = sigma_mm / grid.spacing_mm[axis];
+          const auto reach = static_cast<std::int64_t>(std::ceil(3.0 * sigma));
+          for (std::int64_t i = 0; i < grid.voxel_count(); ++i) {
+            double sum = 0.0;
+            double weights = 0.0;
+            for (std::int64_t n = -reach; n <= reach; ++n) {
+              Index3 v = grid.voxel_at(i);
+              v[axis] = std::clamp<std::int64_t>(v[axis] + n, 0, grid.size[axis] - 1);
+              const double weight = std::exp(-0.5 * std::pow(static_cast<double>(n) / sigma, 2));
+              sum += weight * before[static_cast<std::size_t>(grid.offset(v))];
+              weights += weight;
+            }
+            values[static_cast<std::size_t>(i)] = sum / weights;
+          }
+        }
+        double least_inside = 1.0;
+        double most_outside = 0.0;
+        for (std::int64_t i = 0; i < grid.voxel_count(); ++i) {
+          const double value = values[static_cast<std::size_t>(i)];
+          if (smooth->contains(grid.voxel_at(i))) {
+            least_inside = std::min(least_inside, value);
+          } else {
+            most_outside = std::max(most_outside, value);
+          }
+        }
+        QVERIFY2(most_outside - least_inside < 1e-5,
+                 qPrintable(QString("%1 %2").arg(most_outside).arg(least_inside)));
+      }
+    }
+  }
+
+  // 601 slices reach into each one, which are 96 MB of floats, and there are 8. On one processor, because
+  // every thread maps memory of its own.
+  void a_gaussian_takes_memory_for_the_slices_that_are_there() {
+    const Geometry grid = grid_of({200, 200, 8}, {2.0, 2.0, 0.1});
+    const Region region = whole({{10, 10, 2}, {190, 190, 6}});
+    const auto smooth = [&]() -> Status {
+      cpu_set_t one;
+      CPU_ZERO(&one);
+      CPU_SET(static_cast<std::size_t>(sched_getcpu()), &one);
+      sched_setaffinity(0, sizeof one, &one);
+      return without_exceptions([&]() -> Status {
+        const auto smoothed = imaging::smoothed_by_gaussian(region, grid, 10.0);
+        return smoothed ? Status() : pass_on(smoothed);
+      });
+    };
+    const Ended ended = run_in_child(smooth, {.more_memory = std::int64_t{32} << 20});
+    QVERIFY(!ended.was_killed);
+    QCOMPARE(QString::fromStdString(ended.failure), QString());
   }
 
   void empty_slices_between_drawn_ones_are_filled() {

@@ -1,6 +1,12 @@
 // Structured reports about segments, as other programs read them.
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <QDateTime>
 #include <QJsonArray>
 #include <QProcess>
+#include <cstdlib>
+#include <ctime>
 #include <fstream>
 
 #include "imaging/results/measurement_report.h"
@@ -74,6 +80,32 @@ class MeasurementReportTest : public QObject {
         QVERIFY2(seen["known"].toBool(), wanted.quantity.meaning.c_str());
       }
     }
+  }
+
+  // DCMTK dates the content, we the series.
+  void its_dates_are_by_one_clock_in_every_time_zone() {
+    const auto dated = folder_ / "dated.dcm";
+    {
+      const Variable zone("TZ", "NZST-12");
+      ::tzset();
+      QCOMPARE(failure(imaging::write_measurement_report(segmentation_, sample_measures(), "CT", dated)),
+               QString());
+    }
+    ::tzset();
+    DcmFileFormat file;
+    QVERIFY(file.loadFile(dated.c_str()).good());
+    const auto moment = [&](const DcmTagKey& date, const DcmTagKey& time) {
+      OFString day;
+      OFString hour;
+      file.getDataset()->findAndGetOFString(date, day);
+      file.getDataset()->findAndGetOFString(time, hour);
+      return QDateTime::fromString(QString::fromLatin1((day + hour.substr(0, 6)).c_str()),
+                                   QStringLiteral("yyyyMMddHHmmss"));
+    };
+    const QDateTime series = moment(DCM_SeriesDate, DCM_SeriesTime);
+    const QDateTime content = moment(DCM_ContentDate, DCM_ContentTime);
+    QVERIFY(series.isValid() && content.isValid());
+    QVERIFY2(std::abs(series.secsTo(content)) < 60, qPrintable(series.toString() + content.toString()));
   }
 
   void what_is_no_segmentation_has_no_report() {

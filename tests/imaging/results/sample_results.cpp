@@ -11,6 +11,7 @@
 
 #include "imaging/dicom/dicom.h"
 #include "tests/imaging/dicom/series_files.h"
+#include "tests/support/support.h"
 
 namespace tidemark::test {
 namespace {
@@ -111,6 +112,20 @@ imaging::Segments speckled_segments(const Geometry& geometry) {
     segments.list.push_back(std::move(segment));
   }
   return segments;
+}
+
+void write_speckled_segmentation(const std::filesystem::path& file, const Geometry& geometry,
+                                 imaging::SourceFiles source) {
+  QCOMPARE(failure(imaging::write_segmentation(speckled_segments(geometry), source, file)), QString());
+}
+
+void verify_same(const imaging::Segments& read, const imaging::Segments& written) {
+  QCOMPARE(read.list.size(), written.list.size());
+  for (std::size_t n = 0; n < read.list.size(); ++n) {
+    QVERIFY2(read.list[n].slices == written.list[n].slices, written.list[n].name.c_str());
+    QVERIFY(read.list[n].colour == written.list[n].colour);
+    QVERIFY(read.list[n].meaning == written.list[n].meaning);
+  }
 }
 
 void renumber_segments(const std::filesystem::path& file, const std::vector<std::uint16_t>& numbers) {

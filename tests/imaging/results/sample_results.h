@@ -35,6 +35,12 @@ void add_orientation_rows();
 // Three segments of speckles that differ in every direction: the first two overlap, and both leave out
 // slices.
 imaging::Segments speckled_segments(const Geometry& geometry);
+// Those, written there as a segmentation. Fails the test that runs where they cannot be.
+void write_speckled_segmentation(const std::filesystem::path& file, const Geometry& geometry,
+                                 imaging::SourceFiles source = {});
+
+// Fails the test that runs where voxels, colours or meanings differ.
+void verify_same(const imaging::Segments& read, const imaging::Segments& written);
 
 // Gives the segments of a written segmentation these numbers, in the order of their items, and each frame the
 // number of its segment. Fails the test that runs where there are others than the writer's.
