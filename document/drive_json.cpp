@@ -135,7 +135,7 @@ Json to_json(const CaseImage& image) {
 
 CaseImage read_image(const JsonField& field) {
   CaseImage image;
-  image.name = field.at("name").text(kLongestName);
+  image.name = field.at("name").text(kLongestDescription);
   image.series_uid = field.at("series_uid").text(kLongestName);
   image.frame_of_reference_uid = field.at("frame_of_reference_uid").text(kLongestName);
   image.checksum = field.at("sha256").text(64);

@@ -67,6 +67,7 @@ void History::drop_root() {
   root_ = next;
   Node& root = nodes_.at(root_);
   root.parent.reset();
+  root.description = {};
   root.change.reset();
 }
 

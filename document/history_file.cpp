@@ -139,7 +139,7 @@ ChangeDescription read_change(const JsonField& field) {
   ChangeDescription change;
   change.kind = static_cast<ChangeKind>(field.at("kind").word(kKinds));
   change.steps = field.at("steps").integer(0, kMostSteps);
-  change.name = field.at("name").text(kLongestName);
+  change.name = field.at("name").text(kLongestDescription);
   return change;
 }
 

@@ -81,10 +81,32 @@ Result<std::vector<Region>> sides(const LabelToolUse& use, const Label& label, c
   return both;
 }
 
-// The largest first, without seeds that lie beside the region.
+// The islands of `seeds` that have a voxel in the region or beside one of it: no other one grows into it.
+Region islands_at(const Region& region, const Region& seeds) {
+  const imaging::Islands islands(seeds);
+  std::vector<bool> touches(islands.count());
+  const auto is_beside = [&](Index3 voxel) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const std::int64_t way : {-1, 0, 1}) {
+        Index3 there = voxel;
+        there[axis] += way;
+        if (region.contains(there)) return true;
+      }
+    }
+    return false;
+  };
+  seeds.for_each_run([&](Index3 first, std::int64_t length) {
+    const std::size_t island = *islands.at(first);
+    for (std::int64_t i = 0; i < length && !touches[island]; ++i)
+      touches[island] = is_beside(first + Index3(i, 0, 0));
+  });
+  return islands.region_of([&](std::size_t island) { return touches[island]; });
+}
+
+// The largest first, without seeds that take no voxel of the region.
 Result<std::vector<Region>> basins(const LabelToolUse& use, const Label& label, const Region& region,
                                    const LabelVoxels& from, const Progress& progress) {
-  const Region seeds = from.region(use.other);
+  const Region seeds = islands_at(region, from.region(use.other));
   auto parts = imaging::watershed(region, seeds, from.geometry, progress);
   if (!parts) return parts;
   std::erase_if(*parts, [&](const Region& part) { return intersection(part, region).empty(); });

@@ -30,17 +30,25 @@ Figure area(const LessonState& state, const Progress& /*progress*/) {
   return solver::measure(state.phi).surface_mm2 / 100.0;
 }
 
+// Unset: the study is more than one slice, along whichever axis.
+std::optional<double> thickness_of_slice_mm(const Geometry& grid) {
+  for (const int axis : {2, 1, 0}) {
+    if (grid.size[axis] == 1) return grid.spacing_mm[axis];
+  }
+  return std::nullopt;
+}
+
 // Of the ball, or in one slice the disc, of that volume.
 Figure radius(const LessonState& state, const Progress& /*progress*/) {
   const double volume_ml = solver::measure(state.phi).volume_ml;
-  const Geometry& grid = state.phi.geometry;
-  if (grid.size.z == 1) return std::sqrt(1000.0 * volume_ml / grid.spacing_mm.z / std::numbers::pi);
+  const auto thickness_mm = thickness_of_slice_mm(state.phi.geometry);
+  if (thickness_mm) return std::sqrt(1000.0 * volume_ml / *thickness_mm / std::numbers::pi);
   return solver::radius_of_ball_mm(volume_ml);
 }
 
 // With the faces where the study's end cuts the surface, as its volume is without what lies beyond.
 Figure sphericity(const LessonState& state, const Progress& /*progress*/) {
-  if (state.phi.geometry.size.z == 1) return std::nullopt;
+  if (thickness_of_slice_mm(state.phi.geometry)) return std::nullopt;
   const auto surface = mesh_of(state.phi);
   if (!surface) return pass_on(surface);
   const double sphericity = imaging::mesh_sphericity(*surface);

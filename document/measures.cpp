@@ -69,8 +69,11 @@ Result<Measures> measure(const Region& region, const Geometry& grid, const std::
   for (const MeasuredImage& image : images) {
     if (progress.cancelled()) return cancelled_error();
     progress(0.6, "values");
+    auto values = imaging::values_inside(region, *image.volume, progress);
+    if (!values) return pass_on(values);
+    const auto [low, high] = image.volume->common_range();
     measures.images.push_back(
-        {image.name, image.volume->unit, imaging::values_inside(region, *image.volume)});
+        {image.name, image.volume->unit, *values, static_cast<double>(high) - static_cast<double>(low)});
   }
   return measures;
 }

@@ -30,6 +30,7 @@ struct ImageValues {
   std::string image;  // its name
   std::string unit;   // empty: its values have none
   imaging::InsideValues values;
+  double span = 0.0;  // of the whole image's common_range(): how finely values are told
 };
 
 struct Measures {

@@ -26,7 +26,6 @@ constexpr std::string_view kTruth = "truth";
 constexpr const char* kSessionFormat = "tidemark session";
 constexpr std::size_t kLongestViewState = std::size_t{16} << 20;
 constexpr std::size_t kMostPlaces = 1024;  // of maps, and of images: each was the user's choice once
-constexpr std::size_t kLongestDescription = std::size_t{1} << 20;
 // Some 170,000 strokes of a brush: 2 million values, in 16 MiB of places and 32 MiB of text.
 constexpr JsonLimits kJsonLimits{.bytes = std::size_t{32} << 20, .values = std::size_t{2} << 20};
 

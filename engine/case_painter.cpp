@@ -74,6 +74,11 @@ Result<std::shared_ptr<const solver::Field>> CasePainter::phi(document::Case& do
     auto phi = document.level_set().checkpoint();
     if (!phi) return phi;
     phi_ = std::move(*phi);
+    // A state that another executor made keeps its pages until the next step; the renderer's are this one's.
+    const Index3 shape = document.level_set().executor().memory().page_shape;
+    if (phi_->layout.page_shape() != shape) {
+      phi_ = std::make_shared<const solver::Field>(phi_->repaged(phi_->band, shape));
+    }
   }
   return phi_;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/json/json.h"
 #include "core/json/json_field.h"
@@ -37,6 +38,12 @@ void read_unit(const JsonField& parent, const char* key, glm::dvec3& value) {
   if (glm::length(read) < 0.5) return parent.at(key).wrong("is not a direction");
   value = glm::normalize(read);
 }
+// Volumes of floats have any values.
+void read_window(const JsonField& parent, WindowLevel& window) {
+  using Limits = std::numeric_limits<double>;
+  read(parent, "window_centre", Limits::lowest(), Limits::max(), window.centre);
+  read(parent, "window_width", Limits::min(), Limits::max(), window.width);
+}
 
 Json slices_json(const DisplaySettings& s) {
   return {{"cursor_mm", json_of(s.cursor_mm)},
@@ -70,8 +77,7 @@ void read_slices(const JsonField& field, DisplaySettings& s) {
   read(field, "zoom", 0.01, 1000.0, s.slice_zoom);
   read_unit(field, "oblique_right", s.oblique.right);
   read_unit(field, "oblique_up", s.oblique.up);
-  read(field, "window_centre", -1e9, 1e9, s.window.centre);
-  read(field, "window_width", 1e-9, 1e9, s.window.width);
+  read_window(field, s.window);
   read(field, "nearest", s.nearest);
   read(field, "outline", s.outline);
   read(field, "contours", s.contours);
@@ -185,8 +191,7 @@ void read_images(const JsonField& field, DisplaySettings& s) {
     read(one, "visible", shown.visible);
     read_enum(one, "colours", 4, shown.colours);
     read(one, "opacity", 0.0, 1.0, shown.opacity);
-    read(one, "window_centre", -1e9, 1e9, shown.window.centre);
-    read(one, "window_width", 1e-9, 1e9, shown.window.width);
+    read_window(one, shown.window);
     read(one, "used", shown.used);
   }
 }
@@ -230,7 +235,8 @@ Result<DisplaySettings> display_settings(const std::string& text, DisplaySetting
   if (root.has("slices")) read_slices(root.at("slices"), s);
   if (root.has("volume")) read_volume(root.at("volume"), s);
   read_enum(root, "tool", kTools, s.tool);
-  read(root, "brush_mm", 0.01, 1000.0, s.brush_mm);
+  // The first one goes by the volume's size, whatever that is.
+  if (root.has("brush_mm")) s.brush_mm = std::clamp(root.at("brush_mm").number(), 0.01, 1000.0);
   read(root, "stroke_voxels", 0.5, 100.0, s.stroke_voxels);
   if (root.has("stroke_steps")) s.stroke_steps = root.at("stroke_steps").integer(0, kMostStrokeSteps);
   read(root, "wall_behind_eraser", s.wall_behind_eraser);

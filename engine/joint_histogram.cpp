@@ -1,7 +1,6 @@
 #include "engine/joint_histogram.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tidemark::engine {
 namespace {
@@ -30,8 +29,9 @@ class Places {
 };
 
 std::size_t bin_of(float place) {
-  const auto bin = static_cast<std::int64_t>(std::floor(place * static_cast<float>(JointHistogram::kBins)));
-  return static_cast<std::size_t>(std::clamp<std::int64_t>(bin, 0, JointHistogram::kBins - 1));
+  const float share = std::clamp(place, 0.0F, 1.0F);  // what lies far beyond fits into no integer
+  return std::min<std::size_t>(static_cast<std::size_t>(share * JointHistogram::kBins),
+                               JointHistogram::kBins - 1);
 }
 
 // Evenly, so that every stroke keeps its share.

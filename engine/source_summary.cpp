@@ -20,8 +20,9 @@ constexpr std::int64_t kSamples = 2'000'000;  // of gradients: enough for the pi
 
 int bin_of(float value, float low, float high) {
   if (!(high > low)) return 0;
-  const float share = (value - low) / (high - low);
-  return std::clamp(static_cast<int>(share * SourceSummary::kBins), 0, SourceSummary::kBins - 1);
+  // What lies far beyond the range does not fit into an int.
+  const float share = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
+  return std::min(static_cast<int>(share * SourceSummary::kBins), SourceSummary::kBins - 1);
 }
 
 template <class Stored>

@@ -307,6 +307,7 @@ double velocity_factor(const Parameters& parameters, const CoarseGrid& grid) {
 Field refined(const Field& phi, const CoarseGrid& grid, double band, Index3 page_shape, int threads) {
   Field fine = Field::empty(grid.fine(), band, page_shape);
   Refiner(phi, grid, fine).run(threads);
+  fine.store_between();
   return fine;
 }
 

@@ -8,24 +8,18 @@
 namespace tidemark::solver {
 namespace {
 
-bool is_inside(const Geometry& geometry, glm::dvec3 place) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (place[axis] < 0.0 || place[axis] > static_cast<double>(geometry.size[axis] - 1)) return false;
-  }
-  return true;
-}
-
-// Interpolated trilinearly at a place inside of the grid, in voxel coordinates.
+// Interpolated trilinearly at a place in voxel coordinates, clamped to the grid.
 double value_at(const Volume& volume, glm::dvec3 place) {
   const Index3 last = volume.geometry.size - Index3(1);
-  const Index3 low = glm::min(Index3(glm::floor(place)), last);
-  const glm::dvec3 share = place - glm::dvec3(low);
+  const glm::dvec3 inside = glm::clamp(place, glm::dvec3(0.0), glm::dvec3(last));
+  const Index3 low(glm::floor(inside));
+  const glm::dvec3 share = inside - glm::dvec3(low);
   double sum = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     const Index3 step(corner & 1, corner >> 1 & 1, corner >> 2);
     double weight = 1.0;
     for (int axis = 0; axis < 3; ++axis) weight *= step[axis] == 1 ? share[axis] : 1.0 - share[axis];
-    if (weight > 0.0) sum += weight * volume.value(glm::min(low + step, last));
+    if (weight > 0.0) sum += weight * volume.value(low + step);
   }
   return sum;
 }
@@ -39,8 +33,9 @@ LineProfile line_profile(const Field& phi, const Volume& source, glm::dvec3 from
   const double length_mm = glm::distance(from_mm, to_mm);
   for (int i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / (count - 1);
-    const glm::dvec3 place = geometry.to_voxel(glm::mix(from_mm, to_mm, share));
-    if (!is_inside(geometry, place)) continue;
+    const glm::dvec3 place_mm = glm::mix(from_mm, to_mm, share);
+    if (!geometry.covers(place_mm)) continue;
+    const glm::dvec3 place = geometry.to_voxel(place_mm);
     const ProfilePoint point{share * length_mm, phi_at(phi, place), value_at(source, place)};
     if (!profile.points.empty()) {
       const ProfilePoint& before = profile.points.back();

@@ -23,7 +23,8 @@ struct LineProfile {
 };
 
 // At `count` >= 2 places, evenly from one end to the other (LPS, mm), interpolated trilinearly. Places
-// outside of the volume are left out. phi and source are on one grid.
+// outside of the volume are left out; beyond the outer voxels' centres their values go on. phi and source are
+// on one grid.
 [[nodiscard]] LineProfile line_profile(const Field& phi, const Volume& source, glm::dvec3 from_mm,
                                        glm::dvec3 to_mm, int count);
 

@@ -89,6 +89,7 @@ Field Field::repaged(double new_band, Index3 page_shape) const {
   Field to = empty(geometry, new_band, page_shape);
   Repager repager(*this, to);
   for (std::int64_t page = 0; page < to.layout.page_count(); ++page) repager.make(page);
+  to.store_between();
   return to;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <vector>
 
 #include "core/index_walk.h"
@@ -89,10 +90,10 @@ SurfaceMeter::PageSums SurfaceMeter::sums_of(const Field& phi, std::int64_t page
     } else if (value > 0.0) {
       sums.voxels += 1.0;
     }
-    // A single slice goes on as it is for its thickness: its surface is its outline times that.
-    if (geometry.contains(voxel + Index3(1, 1, geometry.size.z == 1 ? 0 : 1))) {
-      sums.surface_mm2 += area_in_cell(values.cell(local), geometry.spacing_mm);
-    }
+    // A single slice, along any axis, goes on as it is for its thickness: its surface is its outline times
+    // that.
+    const Index3 next = voxel + Index3(glm::notEqual(geometry.size, Index3(1)));
+    if (geometry.contains(next)) sums.surface_mm2 += area_in_cell(values.cell(local), geometry.spacing_mm);
   });
   return sums;
 }

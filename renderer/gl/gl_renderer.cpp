@@ -324,9 +324,13 @@ Status GlRenderer::draw_on(Canvas& canvas, const SliceView& view, const Progress
   slice.set("voxel_from_view", glm::mat4(voxel_from_view));
   gpu::Texture2D plane;
   if (by_plane) {
-    // Sums of terms are those of the nearest voxel.
-    const bool total = view.content == SliceContent::speed && view.term == SpeedTerm::total;
-    const std::vector<float> values = source_on_plane(*source_, voxel_from_view, size, view.nearest || total);
+    // Sums of terms are those of the nearest voxel; the map of D shows the source between voxels, whatever is
+    // asked for.
+    const bool is_speed = view.content == SliceContent::speed;
+    const bool total = is_speed && view.term == SpeedTerm::total;
+    const bool data = is_speed && view.term == SpeedTerm::data;
+    const std::vector<float> values =
+        source_on_plane(*source_, voxel_from_view, size, (view.nearest && !data) || total);
     auto made = gpu::Texture2D::create(*device_, gpu::TexelFormat::r32f, size.width, size.height,
                                        "source on a plane");
     if (!made) return pass_on(made);

@@ -103,7 +103,7 @@ Status ReferenceExecutor::restore(const Field& phi) {
 
 Result<Field> ReferenceExecutor::snapshot() const {
   const std::vector<float> values(phi_.begin(), phi_.end());
-  return Field::from_dense(source_->geometry, values, model_.band());
+  return Field::from_dense(source_->geometry, values, model_.band(), layout_.page_shape());
 }
 
 Status ReferenceExecutor::paint(const Sphere& sphere, Brush brush) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "document/history_file.h"
+#include "document/label_segments.h"
 #include "document/session_file.h"
 #include "tests/document/archives.h"
 #include "tests/document/cases.h"
@@ -134,7 +135,7 @@ std::vector<Bad> bad_files() {
       {"kind", "states[1].change.kind", [](Json& j, Entries&) { j["states"][1]["change"]["kind"] = "x"; }},
       {"steps", "states[1].change.steps", [](Json& j, Entries&) { j["states"][1]["change"]["steps"] = -1; }},
       {"name", "states[1].change.name",
-       [](Json& j, Entries&) { j["states"][1]["change"]["name"] = std::string(300, 'x'); }},
+       [](Json& j, Entries&) { j["states"][1]["change"]["name"] = std::string((1 << 20) + 1, 'x'); }},
       {"events of nobody", "common_events", [](Json& j, Entries&) { j["states"][3]["common_events"] = 99; }},
       {"events backwards", "common_events", [](Json& j, Entries&) { j["states"][4]["recipe"]["steps"] = 1; }},
       {"points of nobody", "common_points", [](Json& j, Entries&) { j["states"][3]["common_points"] = 99; }},
@@ -297,6 +298,40 @@ class HistorySessionTest : public QObject {
       must(read->level_set().restart());
       QVERIFY(values_of(read->level_set()) == values_of(document->level_set()));
     }
+  }
+
+  // An import is no state of a file, unless it led to the oldest one.
+  void an_import_of_many_labels_may_have_led_to_the_oldest_state() {
+    const TemporaryFolder folder;
+    const auto document = named_case();
+    imaging::Segments segments{document->volume()->geometry, {}, {}};
+    for (int n = 10; n < 50; ++n) {
+      imaging::Segment segment;
+      segment.name = "Segment " + std::to_string(n);
+      segments.list.push_back(std::move(segment));
+    }
+    must(document::add_segments(document->labels(), segments));
+    const std::uint64_t with_labels = document->history().position();
+    document->history().set_limit(1);
+    run(document->level_set(), 3);
+    must(document->level_set().end_run());
+    const document::HistoryState oldest = document->history().states().front();
+    QCOMPARE(oldest.id, with_labels);
+    QVERIFY(oldest.change == document::ChangeDescription());
+    must(document::save_session(*document, folder / "one.tidemark"));
+    const auto read = restored(folder / "one.tidemark", *document);
+    QCOMPARE(read->history().states().size(), std::size_t{2});
+    must(read->undo());
+    QCOMPARE(read->level_set().step(), std::int64_t{0});
+
+    // Files exist that name all of them.
+    Entries entries = entries_of(folder / "one.tidemark");
+    Json json = Json::parse(entries["history.json"]);
+    json["states"][0]["change"]["kind"] = "import labels";
+    json["states"][0]["change"]["name"] = std::string(255 * 66, 'n');
+    entries["history.json"] = json.dump();
+    write_entries(folder / "named.tidemark", entries);
+    QCOMPARE(failure(document::load_session(folder / "named.tidemark")), QString());
   }
 
   void a_session_without_a_history_is_read() {

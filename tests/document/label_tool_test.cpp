@@ -188,6 +188,41 @@ class LabelToolTest : public QObject {
     QVERIFY(failure(one.apply(use)).contains("label Seeds is locked"));
   }
 
+  void more_parts_than_there_are_labels_are_refused() {
+    // Voxels that touch each other nowhere across a face.
+    const auto scattered = [](const VoxelRange& range, std::int64_t most) {
+      Region seeds(range);
+      std::int64_t count = 0;
+      whole(range).for_each_run([&](Index3 first, std::int64_t length) {
+        for (std::int64_t i = 0; i < length && count < most; ++i) {
+          const Index3 voxel = first + Index3(i, 0, 0);
+          if ((voxel.x + voxel.y + voxel.z) % 2 != 0) continue;
+          seeds.add(voxel);
+          ++count;
+        }
+      });
+      return seeds;
+    };
+    LabelledCase one;
+    document::LabelToolUse use = with(LabelTool::watershed);
+    use.other = one.labels().add("Seeds").value();
+    const Region apart = scattered({{30, 10, 2}, {40, 20, 10}}, 300);
+    const Region two = united(box({3, 3, 4}, {3, 3, 4}), box({14, 14, 10}, {14, 14, 10}));
+    QVERIFY(one.labels().accept(united(apart, two), use.other, document::Take::others_too));
+    // Those that touch the label count alone.
+    QCOMPARE(failure(one.apply(use)), QString());
+    QVERIFY(one.labels().region(use.other) == apart);
+
+    LabelledCase other;
+    use.other = other.labels().add("Seeds").value();
+    const Region inside = scattered({{2, 2, 2}, {16, 16, 13}}, 300);
+    QVERIFY(other.labels().accept(inside, use.other, document::Take::others_too));
+    const auto refused = document::use_tool(use, {other.liver()}, other.values());
+    QVERIFY(!refused);
+    QCOMPARE(refused.error().kind, ErrorKind::usage);
+    QVERIFY2(failure(refused).contains("300 seeds"), qPrintable(failure(refused)));
+  }
+
   void labels_are_combined_with_the_surface_and_each_other() {
     LabelledCase one;
     const Region liver = one.labels().region(one.liver());

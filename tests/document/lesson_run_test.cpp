@@ -1,5 +1,7 @@
 // Lessons carried out: where tries begin, how far they go, and what is measured.
+#include <glm/geometric.hpp>
 #include <map>
+#include <numbers>
 
 #include "document/lesson_figure.h"
 #include "document/lesson_run.h"
@@ -123,6 +125,32 @@ class LessonRunTest : public QObject {
     QCOMPARE(*outcomes->front().figures[0], 0.0);
     QVERIFY(!outcomes->front().figures[1] && !outcomes->front().figures[2] && !outcomes->front().figures[3]);
     QVERIFY(!outcomes->front().holds(lesson.parts[0]));
+  }
+
+  void a_study_of_one_slice_along_any_axis_has_a_disc() {
+    for (int axis = 0; axis < 3; ++axis) {
+      Geometry grid;
+      grid.size = Index3(32);
+      grid.size[axis] = 1;
+      grid.spacing_mm[axis] = 5.0;
+      const glm::dvec3 centre = grid.to_patient(0.5 * glm::dvec3(grid.size - Index3(1)));
+      std::vector<float> values;
+      for (std::int64_t offset = 0; offset < grid.voxel_count(); ++offset) {
+        const glm::dvec3 place = grid.to_patient(glm::dvec3(grid.voxel_at(offset)));
+        values.push_back(static_cast<float>(9.0 - glm::distance(place, centre)));
+      }
+      const solver::Field phi = solver::Field::from_dense(grid, values, 2.5);
+      const document::LessonState state{phi, 0, false, 0.0, {}, nullptr};
+      const auto figure = [&](const char* name) {
+        return document::lesson_figure(name)->measure(state, {}).value();
+      };
+      const double radius_mm = figure("radius_mm").value_or(-1.0);
+      QVERIFY2(std::abs(radius_mm - 9.0) < 0.1, qPrintable(QString::number(radius_mm)));
+      const double area_cm2 = figure("area_cm2").value_or(-1.0);
+      QVERIFY2(std::abs(area_cm2 - 2.0 * std::numbers::pi * 9.0 * 5.0 / 100.0) < 0.05,
+               qPrintable(QString::number(area_cm2)));
+      QVERIFY(!figure("sphericity"));
+    }
   }
 
   // Half a ball: its area is 3 pi r^2 with the face where the study ends.

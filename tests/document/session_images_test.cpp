@@ -128,6 +128,20 @@ class SessionImagesTest : public QObject {
     QVERIFY(a != b);
   }
 
+  // As descriptions of series are in some DICOM files.
+  void a_long_name_comes_back() {
+    const TemporaryFolder folder;
+    const auto document = begun_case();
+    auto contents = document::snapshot_of(*document);
+    QCOMPARE(failure(contents), QString());
+    contents->origin.phantom = "lumpy";
+    auto image = std::make_shared<document::CaseImage>(*image_at({}));
+    image->name = std::string(300, 'n');
+    contents->images = {image};
+    QCOMPARE(failure(document::write_session(*contents, folder / "one.tidemark")), QString());
+    QCOMPARE(loaded(folder / "one.tidemark").images.front()->name, image->name);
+  }
+
   void images_come_back_with_their_place_and_steps_go_on_as_before() {
     const SavedCase saved;
     document::SessionContents contents = loaded(saved.session);

@@ -107,6 +107,18 @@ class SessionTest : public QObject {
     QVERIFY(values_of(after) == values_of(before));
   }
 
+  void sides_that_nobody_knows_stay_unknown() {
+    const TemporaryFolder folder;
+    const auto document = labelled_case();
+    auto contents = document::snapshot_of(*document);
+    QCOMPARE(failure(contents), QString());
+    contents->geometry.oriented = false;
+    QCOMPARE(failure(document::write_session(*contents, folder / "one.tidemark")), QString());
+    const auto again = document::load_session(folder / "one.tidemark");
+    QCOMPARE(failure(again), QString());
+    QVERIFY(!again->geometry.oriented && !again->phi->geometry.oriented);
+  }
+
   // They wait for strokes outside, or for the function that learns from them.
   void strokes_that_drive_nothing_yet_come_back_data() {
     QTest::addColumn<bool>("learns");
@@ -239,6 +251,28 @@ class SessionTest : public QObject {
         document::restore_case(*contents, document->volume(), solver::ExecutorKind::host, {});
     QCOMPARE(failure(restored), QString());
     QVERIFY(!(*restored)->level_set().begun());
+  }
+
+  // 32-bit counts end at 2,147,483,648 voxels.
+  void a_grid_of_more_voxels_than_32_bits_count_comes_back() {
+    const TemporaryFolder folder;
+    document::SessionContents contents = document::snapshot_of(*labelled_case()).value();
+    contents.history = {};
+    contents.labels.clear();
+    contents.label_voxels.reset();
+    contents.geometry.size = contents.recipe.source.size = {1100, 1100, 1800};
+    contents.phi = std::make_shared<const solver::Field>(
+        solver::Field::empty(contents.geometry, contents.phi->band, contents.phi->layout.page_shape()));
+    document::Drive drive;
+    const solver::Strokes strokes{{std::int64_t{1} << 31}, {}};
+    drive.strokes = std::make_shared<const solver::Strokes>(strokes);
+    contents.wanted_drive = std::make_shared<const document::Drive>(drive);
+    must(document::write_session(contents, folder / "one.tidemark"));
+    const auto read = document::load_session(folder / "one.tidemark");
+    QCOMPARE(failure(read), QString());
+    QCOMPARE(read->geometry.size, contents.geometry.size);
+    QVERIFY(same_pages(*read->phi, *contents.phi));
+    QVERIFY(*read->wanted_drive->strokes == strokes);
   }
 
   void the_study_is_found_again_when_both_have_moved() {
@@ -424,6 +458,10 @@ class SessionTest : public QObject {
            j["grid"]["size"] = {1000000, 1000000, 1000000};
          }),
          "grid.size: more voxels"},
+        {"grid of more than the file holds", json([](Json& j) {
+           j["grid"]["size"] = j["recipe"]["source"]["size"] = {10000, 10000, 10000};
+         }),
+         "phi.table has"},
         {"grid spacing", json([](Json& j) { j["grid"]["spacing_mm"][0] = "1"; }),
          "grid.spacing_mm[0]: not a number"},
         {"band", json([](Json& j) { j["phi"]["band"] = 0.5; }), "phi.band: 0.5"},

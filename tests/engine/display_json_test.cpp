@@ -1,5 +1,8 @@
 // The display as a session file keeps it.
 #include "engine/display_json.h"
+
+#include <algorithm>
+
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 
@@ -23,6 +26,26 @@ class DisplayJsonTest : public QObject {
     QVERIFY(!refused);
     QCOMPARE(refused.error().kind, ErrorKind::input);
     QVERIFY(refused.error().message.find("tool") != std::string::npos);
+  }
+
+  void a_volume_of_any_values_and_any_size_loses_nothing() {
+    engine::DisplaySettings settings;
+    settings.images.resize(1);
+    settings.images.front().window = {-1e30, 1e-12};
+    settings.measurements.push_back(
+        {engine::Measurement::Kind::distance, {glm::dvec3(0.0), glm::dvec3(0.001, 0.0, 0.0)}});
+    for (const double brush_mm : {0.005, 4000.0}) {
+      settings.window = {1e10, 2e10};
+      settings.brush_mm = brush_mm;
+      engine::DisplaySettings first;
+      first.images.resize(1);
+      const auto read = engine::display_settings(engine::to_json(settings), first);
+      QCOMPARE(failure(read), QString());
+      QCOMPARE(read->window, settings.window);
+      QCOMPARE(read->images.front().window, settings.images.front().window);
+      QVERIFY(read->measurements == settings.measurements);
+      QCOMPARE(read->brush_mm, std::clamp(brush_mm, 0.01, 1000.0));
+    }
   }
 };
 

@@ -42,6 +42,16 @@ class JointHistogramTest : public QObject {
     }
   }
 
+  void what_lies_far_beyond_the_common_values_is_in_the_last_bin() {
+    const auto bright = std::make_shared<Volume>(*ramp(1));
+    std::get<std::vector<float>>(bright->voxels).front() = 3e38F;
+    QCOMPARE(bright->common_range(), ramp(1)->common_range());
+    std::vector<std::int64_t> expected = engine::joint_histogram(*ramp(0), *ramp(1), nullptr).counts;
+    --expected.front();
+    ++expected[static_cast<std::size_t>(engine::JointHistogram::kBins) * (engine::JointHistogram::kBins - 1)];
+    QCOMPARE(engine::joint_histogram(*ramp(0), *bright, nullptr).counts, expected);
+  }
+
   void strokes_are_points_at_their_values() {
     solver::Strokes strokes;
     strokes.inside = {10 + 40 * 30};

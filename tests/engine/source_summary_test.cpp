@@ -90,6 +90,32 @@ class SourceSummaryTest : public QObject {
     }
   }
 
+  void what_lies_far_beyond_the_range_is_in_the_last_bin() {
+    Volume volume = noise<float>({64, 64, 64}, -1e-3F, 1e-3F);
+    const std::int64_t bright = volume.geometry.offset({32, 32, 32});
+    std::get<std::vector<float>>(volume.voxels)[static_cast<std::size_t>(bright)] = 3e4F;
+    const engine::SourceSummary summary = engine::summarise(volume);
+    constexpr std::int64_t kBins = engine::SourceSummary::kBins;
+    const auto in_last_bin = [](float value, float low, float high) {
+      return (value - low) / (high - low) * static_cast<float>(kBins) >= static_cast<float>(kBins - 1);
+    };
+    std::int64_t brightest = 0;
+    std::int64_t steepest = 0;
+    for (std::int64_t offset = 0; offset < volume.geometry.voxel_count(); ++offset) {
+      const float slope = engine::gradient_magnitude(volume, volume.geometry.voxel_at(offset));
+      brightest += in_last_bin(volume.value(offset), summary.low, summary.high) ? 1 : 0;
+      steepest += in_last_bin(slope, 0.0F, summary.steepest) ? 1 : 0;
+    }
+    std::int64_t last_column = 0;
+    std::int64_t last_row = 0;
+    for (std::int64_t n = 0; n < kBins; ++n) {
+      last_column += summary.value_gradient[static_cast<std::size_t>((n + 1) * kBins - 1)];
+      last_row += summary.value_gradient[static_cast<std::size_t>((kBins - 1) * kBins + n)];
+    }
+    QCOMPARE(last_column, brightest);
+    QCOMPARE(last_row, steepest);
+  }
+
   void one_value_everywhere_is_in_the_first_bin() {
     Volume volume;
     volume.geometry.size = {4, 4, 4};

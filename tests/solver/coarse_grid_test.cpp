@@ -125,6 +125,20 @@ class CoarseGridTest : public QObject {
     QVERIFY(made.pages.stored() > 0);
   }
 
+  // Executors look for the surface on stored pages alone.
+  void a_surface_between_two_pages_is_on_one_of_them() {
+    const Geometry fine = grid({64, 64, 20}, {1, 1, 5});
+    const solver::CoarseGrid grid(fine, 1);
+    QCOMPARE(grid.factor(), Index3(2, 2, 1));
+    const auto values = sample(grid.coarse(), [](glm::dvec3 p) { return p.z < 37.5 ? 1.25 : -1.25; });
+    const auto coarse = solver::Field::from_dense(grid.coarse(), values, 2.0, {8, 8, 8});
+    const auto made = solver::refined(coarse, grid, 2.0, {8, 8, 8});
+    QCOMPARE(made.mask().count(), std::int64_t{64 * 64 * 8});
+    QVERIFY(made.pages.stored() > 0);
+    const auto wanted = solver::Field::from_dense(fine, made.dense(), 2.0, {8, 8, 8});
+    QVERIFY(made.pages.stored_pages() == wanted.pages.stored_pages());
+  }
+
   void a_block_is_inside_where_half_of_it_is() {
     const Geometry fine = grid({5, 4, 4}, {1, 1, 1});
     Mask mask{fine, std::vector<std::uint8_t>(static_cast<std::size_t>(fine.voxel_count()))};

@@ -74,6 +74,27 @@ class ExecutorsTest : public QObject {
     QCOMPARE(failure(tested->validate()), QString());
   }
 
+  // Who asks which pages move looks these up in the snapshot.
+  void a_snapshot_has_the_pages_that_it_tells_of_data() {
+    add_all_rows();
+    add_small_pages();
+    QTest::newRow("reference, 16 x 16 x 1") << int(solver::ExecutorKind::reference) << 1;
+    QTest::newRow("reference, 4 x 4 x 4") << int(solver::ExecutorKind::reference) << 2;
+  }
+  void a_snapshot_has_the_pages_that_it_tells_of() {
+    const Scene scene = lumpy_scene({45, 40, 35});
+    const auto tested = this_row().make(scene.source, scene.parameters);
+    QCOMPARE(failure(tested->paint(scene.seed, solver::Brush::add)), QString());
+    run(*tested, 60);
+    const auto phi = tested->snapshot();
+    QCOMPARE(failure(phi), QString());
+    QCOMPARE(phi->layout.page_shape(), tested->memory().page_shape);
+    const auto moving = tested->moving_pages();
+    QCOMPARE(failure(moving), QString());
+    QVERIFY(!moving->empty());
+    for (const std::int64_t page : *moving) QVERIFY(page < phi->layout.page_count());
+  }
+
   void it_comes_to_rest_when_the_host_does_data() { add_rows(); }
   void it_comes_to_rest_when_the_host_does() {
     const Setting setting = this_row();

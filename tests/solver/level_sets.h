@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -80,10 +81,15 @@ inline solver::AdvanceReport run(solver::Executor& level_set, std::int64_t steps
   return *report;
 }
 
+// Infinity where a value is not a number, or there are more of one than of the other.
 inline double largest_difference(const auto& a, const auto& b) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (a.size() != b.size()) return kInfinity;
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+    const double difference = std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i]));
+    if (std::isnan(difference)) return kInfinity;
+    largest = std::max(largest, difference);
   }
   return largest;
 }

@@ -40,11 +40,32 @@ class LineProfileTest : public QObject {
   }
 
   void what_is_outside_is_left_out() {
-    const auto profile = solver::line_profile(phi_, source_, {5.0, 4.5, 3.0}, {25.0, 4.5, 3.0}, 81);
-    QCOMPARE(profile.points.front().at_mm, 5.0);
+    // To the faces of the outer voxels, at 9.75 and 19.75.
+    const auto profile = solver::line_profile(phi_, source_, {5.1, 4.5, 3.0}, {25.1, 4.5, 3.0}, 81);
+    QCOMPARE(profile.points.front().at_mm, 4.75);
     QCOMPARE(profile.points.back().at_mm, 14.5);
-    QVERIFY(std::abs(profile.crossings_mm[0] - 9.125) < 1e-5);
+    QVERIFY(std::abs(profile.crossings_mm[0] - 9.025) < 1e-5);
     QVERIFY(solver::line_profile(phi_, source_, {0.0, 50.0, 0.0}, {9.0, 50.0, 0.0}, 9).points.empty());
+  }
+
+  // Slices reached by steps of the wheel lie a rounding beside those of the grid.
+  void the_outer_slices_have_values_to_their_faces() {
+    const auto along = [&](double slice) {
+      const double z = grid_.origin_mm.z + slice * grid_.spacing_mm.z;
+      return solver::line_profile(phi_, source_, {10.25, 4.5, z}, {19.25, 4.5, z}, 73);
+    };
+    const auto inner = along(3.0);
+    QCOMPARE(inner.points.size(), std::size_t{73});
+    for (const double slice : {-4e-14, -0.3, 7.0 + 4e-14, 7.3}) {
+      const auto outer = along(slice);
+      QCOMPARE(outer.points.size(), inner.points.size());
+      for (std::size_t n = 0; n < inner.points.size(); ++n) {
+        QVERIFY(std::abs(outer.points[n].value - inner.points[n].value) < 1e-4);
+        QVERIFY(std::abs(outer.points[n].phi - inner.points[n].phi) < 1e-6);
+      }
+      QCOMPARE(outer.crossings_mm.size(), std::size_t{1});
+    }
+    for (const double slice : {-0.6, 7.6}) QVERIFY(along(slice).points.empty());
   }
 
   void a_line_along_the_surface_has_no_crossing() {

@@ -261,6 +261,21 @@ class PagingTest : public QObject {
     }
   }
 
+  // Executors look for the surface on stored pages alone.
+  void a_surface_between_two_pages_is_on_one_of_them() {
+    const Geometry geometry = grid({32, 32, 20}, {1.0, 1.0, 5.0});
+    const auto values =
+        sample(geometry, [](glm::dvec3 p) { return p.z < 57.5 ? 2.0 : -2.0; });  // after slice 11
+    const solver::Field field = solver::Field::from_dense(geometry, values, 2.0, {8, 8, 8});
+    for (const Index3 shape : kShapes) {
+      const solver::Field made = field.repaged(2.0, shape);
+      QVERIFY(made.dense() == values);
+      QVERIFY(made.pages.stored() > 0);
+      const solver::Field wanted = solver::Field::from_dense(geometry, values, 2.0, shape);
+      QVERIFY(made.pages.stored_pages() == wanted.pages.stored_pages());
+    }
+  }
+
   // The box of the inside does not depend on pages: a ball with whole pages in it, and voxels far from it.
   void the_inside_has_the_same_bounds_in_pages_of_any_shape() {
     const Geometry geometry = grid({67, 58, 49});

@@ -145,6 +145,28 @@ class SingleSliceTest : public QObject {
     QVERIFY(std::abs(measured.surface_mm2 - outline * 7.0) < 0.01 * outline * 7.0);
   }
 
+  void a_slice_along_any_axis_has_the_same_volume_and_surface() {
+    for (const Index3 page_shape : {Index3(8, 8, 8), Index3(16, 16, 1)}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        Index3 size(64);
+        glm::dvec3 spacing(1.0);
+        size[axis] = 1;
+        spacing[axis] = 7.0;
+        const Geometry geometry = grid(size, spacing);
+        const auto disc = [centre = centre_of(geometry)](glm::dvec3 p) {
+          return 20.0 - glm::distance(p, centre);
+        };
+        const auto measured =
+            solver::measure(solver::Field::from_dense(geometry, sample(geometry, disc), 2.5, page_shape));
+        const double area = std::numbers::pi * 400.0;
+        QVERIFY(std::abs(measured.volume_ml - area * 7.0 / 1000.0) < 0.005 * area * 7.0 / 1000.0);
+        const double outline = 2.0 * std::numbers::pi * 20.0;
+        QVERIFY2(std::abs(measured.surface_mm2 - outline * 7.0) < 0.01 * outline * 7.0,
+                 qPrintable(QString::number(measured.surface_mm2)));
+      }
+    }
+  }
+
   // No surface moves along k, where the band would have to be wide.
   void a_thick_slice_makes_the_band_no_wider() {
     QCOMPARE(solver::default_band(slice_of(40, 9.0)), 2.5);
