@@ -2,6 +2,36 @@
 
 namespace tidemark::document {
 
+bool is_of_labels(ChangeKind kind) {
+  switch (kind) {
+    case ChangeKind::start:
+    case ChangeKind::paint:
+    case ChangeKind::erase:
+    case ChangeKind::target:
+    case ChangeKind::range:
+    case ChangeKind::smoothing:
+    case ChangeKind::parameters:
+    case ChangeKind::evolution:
+    case ChangeKind::step_back:
+    case ChangeKind::restart:
+    case ChangeKind::sweep:
+    case ChangeKind::source:
+    case ChangeKind::examples:
+    case ChangeKind::constraints:
+    case ChangeKind::speed:
+      return false;
+    case ChangeKind::new_label:
+    case ChangeKind::label_settings:
+    case ChangeKind::remove_label:
+    case ChangeKind::import_labels:
+    case ChangeKind::accept:
+    case ChangeKind::finish:
+    case ChangeKind::label_brush:
+      return true;
+  }
+  return false;
+}
+
 std::string describe(const ChangeDescription& change) {
   const char* const plural = change.steps == 1 ? "" : "s";
   switch (change.kind) {

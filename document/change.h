@@ -35,6 +35,8 @@ enum class ChangeKind {
   finish,  // labels, by a tool
   label_brush,
 };
+// The surface is the same before it and after it.
+[[nodiscard]] bool is_of_labels(ChangeKind kind);
 
 // A change in words. The interface words it in the user's language, describe() in English.
 struct ChangeDescription {

@@ -48,14 +48,14 @@ struct CaseAutosave::Copies {
 };
 
 CaseAutosave::CaseAutosave(CaseProxy& proxy, std::filesystem::path folder,
-                           std::function<std::string()> view_state)
+                           std::function<std::string()> view_state, std::chrono::milliseconds interval)
     : proxy_(proxy), view_state_(std::move(view_state)), copies_(std::make_shared<Copies>()) {
   copies_->folder = std::move(folder);
   connect(&proxy_, &CaseProxy::state_changed, this, &CaseAutosave::follow);
   connect(&timer_, &QTimer::timeout, this, &CaseAutosave::save_now);
   // The last copy is all that is left of the work: it is offered at the next start.
   connect(&proxy_, &CaseProxy::given_up, this, [this] { keeps_ = true; });
-  timer_.start(kSeconds * 1000);
+  timer_.start(interval);
 }
 
 CaseAutosave::~CaseAutosave() {
@@ -80,8 +80,13 @@ void CaseAutosave::follow() {
   if (soon_ || proxy_.state().edits >= last_.edits + kEdits) save_now();
 }
 
+void CaseAutosave::save_soon() {
+  soon_ = true;
+  if (proxy_.state().commands > 0) save_now();
+}
+
 void CaseAutosave::save_now() {
-  if (!proxy_.state().modified || writing_ || failed_) return;
+  if (!proxy_.state().modified || writing_ || failed_ || keeps_) return;
   Copied now = present();
   if (!soon_ && now == last_) return;
   writing_ = true;

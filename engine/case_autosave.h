@@ -4,6 +4,7 @@
 #include <QObject>
 #include <QPointer>
 #include <QTimer>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -16,24 +17,25 @@ namespace tidemark::engine {
 
 class BackgroundJob;
 
-// Written every kSeconds or kEdits edits, away from the user interface. A program that dies leaves the last
+// Written every kInterval or kEdits edits, away from the user interface. A program that dies leaves the last
 // copy behind, for find_recoverable().
 class CaseAutosave : public QObject {
   Q_OBJECT
  public:
-  static constexpr int kSeconds = 30;
+  static constexpr std::chrono::seconds kInterval{30};
   static constexpr std::uint64_t kEdits = 50;
 
   // `view_state`: how the case is shown, asked for at each copy.
-  CaseAutosave(CaseProxy& proxy, std::filesystem::path folder, std::function<std::string()> view_state);
+  CaseAutosave(CaseProxy& proxy, std::filesystem::path folder, std::function<std::string()> view_state,
+               std::chrono::milliseconds interval = kInterval);
   // The case was closed because the user wanted it: nothing is left behind, unless it could not go on.
   ~CaseAutosave() override;
 
   void save_now();
   // Another way to ask how the case is shown.
   void ask_view_state_of(std::function<std::string()> view_state) { view_state_ = std::move(view_state); }
-  // Called with the case's first state: a rescued case is in no file but the copy that it came from.
-  void save_soon() { soon_ = true; }
+  // With the case's first state at the latest: a rescued case is in no file but the copy that it came from.
+  void save_soon();
 
  signals:
   void saved();
@@ -64,7 +66,7 @@ class CaseAutosave : public QObject {
   bool writing_ = false;
   bool was_modified_ = false;
   bool failed_ = false;
-  bool keeps_ = false;  // the copy, when the case is closed
+  bool keeps_ = false;  // the copy, as the case cannot go on
 };
 
 // Where copies are, for all cases of this user.

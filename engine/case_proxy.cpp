@@ -17,6 +17,26 @@
 #include "engine/wanted_map.h"
 
 namespace tidemark::engine {
+namespace {
+
+// Held by a command, it calls back once that is over, however it ended.
+class LastCall {
+ public:
+  LastCall(std::shared_ptr<WeakReceiver> receiver, std::function<void()> call)
+      : receiver_(std::move(receiver)), call_(std::move(call)) {}
+  ~LastCall() {
+    if (call_) receiver_->send(std::move(call_));
+  }
+  LastCall(const LastCall&) = delete;
+  LastCall& operator=(const LastCall&) = delete;
+  void forget() { call_ = nullptr; }
+
+ private:
+  std::shared_ptr<WeakReceiver> receiver_;
+  std::function<void()> call_;
+};
+
+}  // namespace
 
 CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, solver::ExecutorKind executor,
                      RestoredCase restored)
@@ -105,10 +125,9 @@ std::uint64_t CaseProxy::new_gesture() {
 }
 
 void CaseProxy::post(Command command) {
-  const auto carry_out = [opens = last_command_ == 0, command = std::move(command)](
-                             CaseRunner& runner, const Progress& progress) -> Status {
+  const auto carry_out = [command = std::move(command)](CaseRunner& runner,
+                                                        const Progress& progress) -> Status {
     if (const Error* obstacle = runner.obstacle()) return tl::unexpected<Error>(*obstacle);
-    if (!runner.opened() && !opens) return {};
     return command(runner, progress);
   };
   last_command_ = runner_->post(carry_out);
@@ -182,12 +201,10 @@ void CaseProxy::measure(std::function<void()> answer) {
   after_commands(std::move(answer));
 }
 
-// The state of one command arrives before the next one is carried out.
+// The state of a command is sent before the command goes.
 void CaseProxy::after_commands(std::function<void()> answer) {
-  post([answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner&, const Progress&) -> Status {
-    weak_receiver->send(answer);
-    return {};
-  });
+  post([last = std::make_shared<const LastCall>(askers_, std::move(answer))](
+           CaseRunner&, const Progress&) -> Status { return {}; });
 }
 
 void CaseProxy::step(std::int64_t steps) {
@@ -239,11 +256,15 @@ void CaseProxy::set_leak_rule(const std::optional<document::LeakRule>& rule) {
   });
 }
 
-void CaseProxy::set_parameters(const solver::Parameters& parameters, std::uint64_t gesture) {
-  if (parameters == wanted_parameters_) return;
-  wanted_parameters_ = parameters;
-  post([parameters, gesture](CaseRunner& runner, const Progress&) {
+void CaseProxy::change_parameters(const ParameterChange& change, std::uint64_t gesture) {
+  solver::Parameters wanted = wanted_parameters_;
+  change(wanted);
+  if (wanted == wanted_parameters_) return;
+  wanted_parameters_ = wanted;
+  post([change, gesture](CaseRunner& runner, const Progress&) {
     document::LevelSet& level_set = runner.document().level_set();
+    solver::Parameters parameters = level_set.parameters();
+    change(parameters);
     if (parameters.band == level_set.parameters().band)
       return runner.report_change(level_set.set_parameters(parameters, gesture));
     runner.set_playing(false);
@@ -252,30 +273,51 @@ void CaseProxy::set_parameters(const solver::Parameters& parameters, std::uint64
   emit state_changed();  // every view and panel shows the wish at once
 }
 
-// Gives it the images that are used. Whether it is another one than before.
-bool CaseProxy::want(document::Drive& drive) {
-  drive.images.clear();
-  if (document::uses_images(drive.setting)) drive.images = used_images(display_.settings().images);
-  if (drive == wanted_drive_) return false;
-  wanted_drive_ = drive;
-  return true;
+void CaseProxy::set_parameters(const solver::Parameters& parameters, std::uint64_t gesture) {
+  change_parameters([parameters](solver::Parameters& wanted) { wanted = parameters; }, gesture);
 }
 
-void CaseProxy::take_stroke(const document::Drive& wanted, const std::vector<std::int64_t>& voxels,
-                            std::int64_t steps) {
-  document::Drive drive = wanted;
-  if (!want(drive)) return;
-  post([drive, voxels, steps, gesture = new_gesture()](CaseRunner& runner, const Progress& progress) {
-    return runner.take_stroke(drive, voxels, steps, gesture, progress);
+CaseProxy::ChangedDrive CaseProxy::want(const DriveChange& change) {
+  const document::Drive before = wanted_drive_;
+  document::Drive after = before;
+  change(after);
+  after.images.clear();
+  if (document::uses_images(after.setting)) after.images = used_images(display_.settings().images);
+  if (after == before) return {};
+  wanted_drive_ = after;
+  return [change, before, after](const document::Drive& present) {
+    if (present == before) return after;
+    document::Drive changed = present;
+    change(changed);
+    // Where the change left the images alone, those that the case has stay.
+    const bool keeps = after.images == before.images && document::uses_images(present.setting);
+    changed.images = keeps ? present.images : after.images;
+    if (!document::uses_images(changed.setting)) changed.images.clear();
+    return changed;
+  };
+}
+
+void CaseProxy::change_drive(const DriveChange& change, std::uint64_t gesture) {
+  const ChangedDrive changed = want(change);
+  if (!changed) return;
+  post([changed, gesture](CaseRunner& runner, const Progress&) {
+    document::LevelSet& level_set = runner.document().level_set();
+    return runner.report_edit(level_set.set_drive(changed(level_set.drive()), gesture));
   });
   emit state_changed();
 }
 
-void CaseProxy::set_drive(const document::Drive& wanted, std::uint64_t gesture) {
-  document::Drive drive = wanted;
-  if (!want(drive)) return;
-  post([drive, gesture](CaseRunner& runner, const Progress&) {
-    return runner.report_edit(runner.document().level_set().set_drive(drive, gesture));
+void CaseProxy::set_drive(const document::Drive& drive, std::uint64_t gesture) {
+  change_drive([drive](document::Drive& wanted) { wanted = drive; }, gesture);
+}
+
+void CaseProxy::take_stroke(const DriveChange& change, const std::vector<std::int64_t>& voxels,
+                            std::int64_t steps) {
+  const ChangedDrive changed = want(change);
+  if (!changed) return;
+  post([changed, voxels, steps, gesture = new_gesture()](CaseRunner& runner, const Progress& progress) {
+    const document::Drive drive = changed(runner.document().level_set().drive());
+    return runner.take_stroke(drive, voxels, steps, gesture, progress);
   });
   emit state_changed();
 }
@@ -283,8 +325,9 @@ void CaseProxy::set_drive(const document::Drive& wanted, std::uint64_t gesture) 
 // An image was added, moved, taken away, or is to be used or not.
 void CaseProxy::use_images_of_display() {
   if (!document::uses_images(wanted_drive_.setting)) return;
+  // Every change gets those of the display.
   if (wanted_drive_.images != used_images(display_.settings().images))
-    set_drive(wanted_drive_, new_gesture());
+    change_drive([](document::Drive&) {}, new_gesture());
 }
 
 // Undo, or a session, has brought others.
@@ -373,7 +416,8 @@ void CaseProxy::take_snapshot(std::string view_state,
                               std::function<void()> gave_up) {
   using Taken = Result<std::shared_ptr<const Snapshot>>;
   post([view_state = std::move(view_state), attachments = attachments(), answer = std::move(answer),
-        gave_up = std::move(gave_up), askers = askers_](CaseRunner& runner, const Progress&) -> Status {
+        unanswered = std::make_shared<LastCall>(askers_, std::move(gave_up)),
+        askers = askers_](CaseRunner& runner, const Progress&) -> Status {
     const Taken taken = without_exceptions([&]() -> Taken {
       document::Case& document = runner.document();
       document.view_state = view_state;
@@ -385,12 +429,10 @@ void CaseProxy::take_snapshot(std::string view_state,
       return std::make_shared<const Snapshot>(
           Snapshot{std::move(*contents), attachments, document.history().position()});
     });
-    if (taken) {
-      askers->send([answer, snapshot = *taken] { answer(snapshot); });
-      return {};
-    }
-    if (gave_up) askers->send(gave_up);
-    return pass_on(taken);
+    if (!taken) return pass_on(taken);
+    askers->send([answer, snapshot = *taken] { answer(snapshot); });
+    unanswered->forget();
+    return {};
   });
 }
 

@@ -107,7 +107,8 @@ class CaseProxy : public QObject {
   void play_for(std::int64_t steps, bool until_rest, std::function<void(bool reached)> ended);
   // `answer` is called when the figures in state() are those of the present surface.
   void measure(std::function<void()> answer);
-  // `answer` is called when state() is that after all commands so far.
+  // `answer` is called when state() is that after all commands so far, whether or not they could be carried
+  // out; never when the case is closed before.
   void after_commands(std::function<void()> answer);
   void step(std::int64_t steps = 1);
   void step_back(std::int64_t steps = 1);
@@ -125,15 +126,22 @@ class CaseProxy : public QObject {
 
   // Edits. One gesture (a drag, a stroke) is one entry of the history; 0: an edit of its own.
   [[nodiscard]] static std::uint64_t new_gesture();
+  // What changes parameters or drive is called at once for what is seen here, and once more for what the case
+  // has when the command's turn comes: an undo may come between. That is on the engine's thread, so it holds
+  // values.
+  using ParameterChange = std::function<void(solver::Parameters&)>;
+  void change_parameters(const ParameterChange& change, std::uint64_t gesture = 0);
   void set_parameters(const solver::Parameters& parameters, std::uint64_t gesture = 0);
   // The speed function that belongs to it is made in the background, and drives the surface from then on.
   // Its images are those that the display says are used, where a function uses images; else none.
+  using DriveChange = std::function<void(document::Drive&)>;
+  void change_drive(const DriveChange& change, std::uint64_t gesture = 0);
   void set_drive(const document::Drive& drive, std::uint64_t gesture = 0);
   // The same after a stroke of examples over `voxels`, ascending. With steps, it pauses until the function
   // has learned from it, and then moves by so many, or until it rests: a leak is seen while it is small. What
   // of a stroke inside lies outside of the surface is added to it; without a surface it begins in all strokes
   // inside. Play, pause and edits of the surface call that off. In lock-step the surface does not move by it.
-  void take_stroke(const document::Drive& drive, const std::vector<std::int64_t>& voxels, std::int64_t steps);
+  void take_stroke(const DriveChange& change, const std::vector<std::int64_t>& voxels, std::int64_t steps);
   void begin(const document::Start& start);
   void paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture);
   // The level set's source (0: the volume itself). It is smoothed in the background; undo() gives that up.
@@ -161,7 +169,8 @@ class CaseProxy : public QObject {
   // With `from`: fails when the labels are others by the time that the command is carried out.
   void finish_labels(std::shared_ptr<const std::vector<document::LabelRegion>> regions, document::Take take,
                      const std::optional<document::LabelVoxels>& from = {});
-  // A stroke of the brush: one entry of the history.
+  // A stroke of the brush: one entry of the history. Label 0 is the newest one by the time that the command
+  // is carried out; where there is none, a stroke that adds makes one, and another does nothing.
   void brush_label(document::LabelRegion stroke, document::Labels::Stroke what, document::Take take);
   [[nodiscard]] LabelFinisher& label_finisher() { return *label_finisher_; }
   [[nodiscard]] RegionMeter& region_meter() { return *region_meter_; }
@@ -171,7 +180,7 @@ class CaseProxy : public QObject {
   // The state comes once more, its texts in the language of now.
   void translate_state();
 
-  // Whether somebody waits for an answer of pick() or take_snapshot().
+  // Whether somebody waits for an answer of after_commands(), pick() or take_snapshot().
   [[nodiscard]] bool is_asked() const { return askers_.use_count() > 1; }
 
   // The place that a pixel of a 3D view shows (from its top left, physical pixels); the answer comes later,
@@ -228,7 +237,9 @@ class CaseProxy : public QObject {
   void use_truth();
   void show_distances();
   void show_images_of_drive();
-  bool want(document::Drive& drive);
+  // The drive that a change makes of the one that the case has; empty: here it changes nothing.
+  using ChangedDrive = std::function<document::Drive(const document::Drive& present)>;
+  ChangedDrive want(const DriveChange& change);
   [[nodiscard]] Attachments attachments_of(const DisplaySettings& settings) const;
   [[nodiscard]] bool modified() const;
   void follow_modified();

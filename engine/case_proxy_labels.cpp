@@ -60,8 +60,12 @@ void CaseProxy::finish_labels(std::shared_ptr<const std::vector<document::LabelR
 
 void CaseProxy::brush_label(document::LabelRegion stroke, document::Labels::Stroke what,
                             document::Take take) {
-  post([stroke = std::move(stroke), what, take](CaseRunner& runner, const Progress&) {
-    return runner.report_acceptance(runner.document().labels().brush(stroke, what, take));
+  post([stroke = std::move(stroke), what, take](CaseRunner& runner, const Progress&) mutable -> Status {
+    document::Labels& labels = runner.document().labels();
+    // The stroke before it may have made the label.
+    if (stroke.label == 0 && !labels.list().empty()) stroke.label = labels.list().back().id;
+    if (stroke.label == 0 && what == document::Labels::Stroke::erases) return {};
+    return runner.report_acceptance(labels.brush(std::move(stroke), what, take));
   });
 }
 

@@ -67,8 +67,11 @@ Status CaseRunner::open() {
                                                           executor_options())
                                  : document::Case::create(study_->volume, study_->origin, study_->parameters,
                                                           executor_kind_, executor_options());
-  if (!made) return pass_on(made);
-  case_ = std::move(*made);
+  if (made) {
+    case_ = std::move(*made);
+  } else {
+    give_up(made.error());
+  }
   return {};
 }
 
@@ -116,17 +119,22 @@ void CaseRunner::recover(const Error& error) {
   playing_ = false;
   if (run_) ended_run_ = std::exchange(run_, std::nullopt);
   report_failure(error);
-  if (!case_) return;
-  const Status back = without_exceptions([this] { return case_->level_set().rebuild(executor_options()); });
-  if (!back) {
-    obstacle_ = Error{back.error().kind,
-                      fmt::format("this case cannot go on and should be closed: {}", back.error().message)};
-    report_failure(*obstacle_);
-    receiver_.weak_receiver->send(receiver_.given_up);
-    return close();
-  }
+  if (obstacle_) return;
+  const Status back = without_exceptions([&]() -> Status {
+    if (!case_) return tl::unexpected<Error>(error);  // it was being opened
+    return case_->level_set().rebuild(executor_options());
+  });
+  if (!back) return give_up(back.error());
   phi_changed();
   show();
+}
+
+void CaseRunner::give_up(const Error& error) {
+  obstacle_ =
+      Error{error.kind, fmt::format("this case cannot go on and should be closed: {}", error.message)};
+  report_failure(*obstacle_);
+  receiver_.weak_receiver->send(receiver_.given_up);
+  close();
 }
 
 void CaseRunner::report_failure(const Error& error) {

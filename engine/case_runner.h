@@ -117,6 +117,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   void show_pictures();  // posts those that are out of date
   void phi_changed();
   void recover(const Error& error);
+  void give_up(const Error& error);
   void post_steps(Engine::Clock::time_point due = {});
   void run_steps(std::uint64_t turn, std::stop_token stop);
   void post_picture(const std::shared_ptr<ViewSlot>& slot, Priority priority);

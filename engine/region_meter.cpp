@@ -32,6 +32,13 @@ Result<Answer> computed(const Wanted& wanted, const Progress& progress) {
 
 RegionMeter::RegionMeter(CaseProxy& proxy) : proxy_(proxy) {
   connect(&proxy, &CaseProxy::state_changed, this, &RegionMeter::follow_case);
+  connect(&proxy.display(), &Display::changed, this, &RegionMeter::follow_case);
+}
+
+RegionMeter::Images RegionMeter::images_now() const {
+  Images images;
+  for (const ShownImage& shown : proxy_.display().settings().images) images.push_back(shown.image);
+  return images;
 }
 
 void RegionMeter::begin(std::uint8_t label) {
@@ -40,11 +47,17 @@ void RegionMeter::begin(std::uint8_t label) {
   label_ = label;
   step_ = state.step;
   edits_ = state.edits;
+  images_ = images_now();
+  compute();
+}
+
+void RegionMeter::compute() {
+  const CaseState& state = proxy_.state();
+  phi_ = state.phi;
   Wanted wanted{{proxy_.volume().geometry, state.labels, state.label_voxels, state.phi},
-                label,
+                label_,
                 {proxy_.name().toStdString(), proxy_.study().volume},
-                {}};
-  for (const ShownImage& shown : proxy_.display().settings().images) wanted.images.push_back(shown.image);
+                images_};
   run([wanted = std::move(wanted)](const Progress& progress) { return computed(wanted, progress); },
       [this](Answer measures) {
         measures_ = std::move(measures);
@@ -54,11 +67,18 @@ void RegionMeter::begin(std::uint8_t label) {
 
 void RegionMeter::clear() {
   give_up();
+  images_.clear();
+  phi_ = nullptr;
   if (std::exchange(measures_, nullptr) != nullptr) emit changed();
 }
 
 void RegionMeter::follow_case() {
-  if (proxy_.state().step != step_ || proxy_.state().edits != edits_) clear();
+  const bool is_same = proxy_.state().step == step_ && proxy_.state().edits == edits_;
+  if (!is_same || images_now() != images_) return clear();
+  if (label_ != document::kTheSurface || (!busy() && !measures_) || proxy_.state().phi == phi_) return;
+  // An edit is heard of before the phi that it has made.
+  if (std::exchange(measures_, nullptr) != nullptr) emit changed();
+  compute();
 }
 
 }  // namespace tidemark::engine

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "document/label_tool.h"
 #include "document/measures.h"
@@ -12,7 +13,7 @@ namespace tidemark::engine {
 
 class CaseProxy;
 
-// Measures stay until the case changes.
+// Measures stay until the case or the display's images change.
 class RegionMeter : public JobRunner {
   Q_OBJECT
  public:
@@ -33,12 +34,17 @@ class RegionMeter : public JobRunner {
   void changed();  // measures()
 
  private:
+  using Images = std::vector<std::shared_ptr<const document::CaseImage>>;
+  [[nodiscard]] Images images_now() const;  // of the display
+  void compute();
   void follow_case();
 
   CaseProxy& proxy_;
   std::uint8_t label_ = document::kTheSurface;
   std::int64_t step_ = 0;  // of the case when it was asked
   std::uint64_t edits_ = 0;
+  Images images_;
+  std::shared_ptr<const solver::Field> phi_;
   std::shared_ptr<const document::Measures> measures_;
 };
 

@@ -53,6 +53,7 @@ std::vector<std::shared_ptr<const document::CaseImage>> used_images(const std::v
 
 void use_images(std::vector<ShownImage>& images,
                 const std::vector<std::shared_ptr<const document::CaseImage>>& used) {
+  if (used_images(images) == used) return;
   std::vector<ShownImage> now;
   for (const auto& image : used) {
     const auto is_same = [&](const ShownImage& shown) { return shown.image == image; };

@@ -34,8 +34,8 @@ struct ShownImage {
 // The images that speed functions use, in the order of the list.
 [[nodiscard]] std::vector<std::shared_ptr<const document::CaseImage>> used_images(
     const std::vector<ShownImage>& images);
-// Makes them the ones that are used, in their order and before the others: after undo, or as a session says.
-// Those that are not in the list are added to it.
+// Makes them the ones that are used, in their order: after undo, or as a session says. Where they are not so
+// already, they come before the others. Those that are not in the list are added to it.
 void use_images(std::vector<ShownImage>& images,
                 const std::vector<std::shared_ptr<const document::CaseImage>>& used);
 // Adds it, or puts it in place of a missing one of the same voxels.

@@ -175,6 +175,18 @@ class CaseAutosaveTest : public QObject {
     QCOMPARE(saved.size(), 2);
   }
 
+  void copies_are_made_as_time_goes_by() {
+    const test::TemporaryFolder folder;
+    Edited edited(folder / "rare");
+    engine::CaseAutosave often(
+        edited.proxy, folder / "recovery", [] { return std::string(); }, 50ms);
+    QSignalSpy saved(&often, &engine::CaseAutosave::saved);
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, kPatience);
+    edited.wait_until_idle();
+    edited.proxy.step(3);
+    QTRY_VERIFY_WITH_TIMEOUT(saved.size() > 1, kPatience);
+  }
+
   // A case that cannot go on cannot be saved either: its last copy outlives it.
   void the_copy_of_a_case_that_gave_up_stays() {
     const test::TemporaryFolder folder;

@@ -2,15 +2,18 @@
 #include "engine/case_proxy.h"
 
 #include <QElapsedTimer>
+#include <QSignalSpy>
 #include <QTest>
 #include <QTimer>
 #include <atomic>
 #include <cmath>
+#include <future>
 #include <new>
 #include <thread>
 
 #include "engine/case_runner.h"
 #include "engine/picture_feed.h"
+#include "engine/region_meter.h"
 #include "tests/engine/ball_case.h"
 #include "tests/support/test_program.h"
 
@@ -46,6 +49,12 @@ void begin_in_lock_step(Fixture& fixture, engine::CaseProxy& other) {
 
 solver::ExecutorKind executor_of_row() {
   return *solver::executor_named(QTest::currentDataTag());
+}
+
+// The engine does nothing else from its first job of that priority until the promise is kept.
+void hold(engine::Engine& engine, engine::Priority priority, std::promise<void>& until) {
+  engine.post(priority, nullptr,
+              [done = until.get_future().share()](const std::stop_token&) { done.wait(); });
 }
 
 void add_executors() {
@@ -182,7 +191,20 @@ class CaseProxyTest : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(fixture.proxy.state().smoothed_mm, 1.5, kPatience);
     fixture.wait_until_idle();
     QCOMPARE(picture(), before);
-    fixture.proxy.change_executor(solver::ExecutorKind::reference);
+    for (const auto executor : {solver::ExecutorKind::reference, solver::ExecutorKind::stream}) {
+      fixture.proxy.change_executor(executor);
+      fixture.wait_until_idle();
+      QCOMPARE(picture(), before);
+    }
+    // States keep the pages of the executor that made them.
+    fixture.proxy.step(1);
+    fixture.wait_until_idle();
+    const QImage after = picture();
+    QVERIFY(after != before);
+    fixture.proxy.change_executor(solver::ExecutorKind::host);
+    fixture.wait_until_idle();
+    QCOMPARE(picture(), after);
+    fixture.proxy.undo();
     fixture.wait_until_idle();
     QCOMPARE(picture(), before);
     QCOMPARE(fixture.failures, QStringList());
@@ -401,6 +423,54 @@ class CaseProxyTest : public QObject {
     QVERIFY(!now().region(id).contains({1, 1, 1}) && now().region(id).contains({3, 3, 3}));
   }
 
+  void measures_are_gone_once_an_image_lies_elsewhere() {
+    Fixture fixture;
+    fixture.begin(8.0);
+    auto image = std::make_shared<document::CaseImage>();
+    image->name = "PET";
+    image->volume = fixture.proxy.study().volume;
+    engine::Display& display = fixture.proxy.display();
+    display.change([&](engine::DisplaySettings& settings) {
+      engine::ShownImage shown;
+      shown.image = image;
+      settings.images = {shown};
+    });
+    fixture.wait_until_idle();
+    engine::RegionMeter& meter = fixture.proxy.region_meter();
+    meter.begin(document::kTheSurface);
+    QTRY_VERIFY_WITH_TIMEOUT(meter.measures(), kPatience);
+    QCOMPARE(meter.measures()->images.size(), std::size_t{2});
+    display.change([](engine::DisplaySettings& settings) { settings.images.front().opacity = 0.3; });
+    QVERIFY(meter.measures());
+    auto moved = std::make_shared<document::CaseImage>(*image);
+    moved->to_case[3].x = 2.0;
+    display.change([&](engine::DisplaySettings& settings) { settings.images.front().image = moved; });
+    QVERIFY(!meter.measures());
+  }
+
+  // The state after an edit comes with phi before it: figures wait their turn.
+  void measures_right_after_an_edit_are_of_the_surface_after_it() {
+    BallCase fixture;
+    fixture.begin(4.0);
+    const engine::CaseState before = fixture.proxy.state();
+    std::promise<void> edited;
+    std::promise<void> measured;
+    hold(fixture.engine, engine::Priority::edit, edited);
+    fixture.proxy.paint({fixture.middle(), 9.0}, solver::Brush::add, engine::CaseProxy::new_gesture());
+    hold(fixture.engine, engine::Priority::step, measured);
+    edited.set_value();
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.proxy.state().edits > before.edits, kPatience);
+    QCOMPARE(fixture.proxy.state().phi, before.phi);
+    engine::RegionMeter& meter = fixture.proxy.region_meter();
+    meter.begin(document::kTheSurface);
+    measured.set_value();
+    fixture.wait_until_idle();
+    QTRY_VERIFY_WITH_TIMEOUT(!meter.busy(), kPatience);
+    QVERIFY(meter.measures());
+    QCOMPARE(meter.measures()->voxels, fixture.proxy.state().surface.voxels_inside);
+    QVERIFY(meter.measures()->voxels > 2 * before.surface.voxels_inside);
+  }
+
   void cases_in_lock_step_stand_at_the_same_step() {
     Fixture fixture;
     engine::CaseProxy other(fixture.engine, ball_study(), solver::ExecutorKind::host);
@@ -472,6 +542,42 @@ class CaseProxyTest : public QObject {
     fixture.proxy.pause();
     fixture.wait_until_idle();
     QCOMPARE(other.state().step, 3);
+  }
+
+  void a_case_that_cannot_be_opened_gives_up_and_says_so_to_all_who_wait() {
+    engine::Engine engine(false);
+    auto contents = std::make_shared<document::SessionContents>();
+    contents->geometry.size = {5, 6, 7};  // not the study's
+    engine::CaseProxy proxy(engine, ball_study(), solver::ExecutorKind::host, {contents, true});
+    QStringList failures;
+    connect(&proxy, &engine::CaseProxy::failed, this, [&](const QString& why) { failures << why; });
+    const QSignalSpy given_up(&proxy, &engine::CaseProxy::given_up);
+    QTRY_COMPARE_WITH_TIMEOUT(given_up.size(), 1, kPatience);
+    QCOMPARE(failures.size(), 1);
+    QVERIFY2(failures.front().contains("should be closed") && failures.front().contains("5 x 6 x 7"),
+             qPrintable(failures.front()));
+    bool answered = false;
+    bool gave_up = false;
+    bool over = false;
+    proxy.take_snapshot(
+        {}, [&](const auto&) { answered = true; }, [&] { gave_up = true; });
+    proxy.after_commands([&] { over = true; });
+    QTRY_VERIFY_WITH_TIMEOUT(over, kPatience);
+    QVERIFY(gave_up && !answered);
+    QTRY_VERIFY_WITH_TIMEOUT(!proxy.is_asked(), kPatience);
+  }
+
+  void a_case_is_asked_until_its_commands_are_over() {
+    BallCase fixture;
+    bool over = false;
+    std::promise<void> go;
+    hold(fixture.engine, engine::Priority::edit, go);
+    QVERIFY(!fixture.proxy.is_asked());
+    fixture.proxy.after_commands([&] { over = true; });
+    QVERIFY(fixture.proxy.is_asked());
+    go.set_value();
+    QTRY_VERIFY_WITH_TIMEOUT(over, kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(!fixture.proxy.is_asked(), kPatience);
   }
 
   void a_session_that_goes_cancels_what_runs() {

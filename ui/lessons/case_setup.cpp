@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ui/lessons/parameter_names.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -89,8 +90,7 @@ bool CaseSetup::is_on(const document::LessonStudy& study, const std::filesystem:
     return kind(study.phantom) == kind(origin.phantom);
   }
   if (origin.path.empty() || folder.empty()) return false;
-  std::error_code error;
-  return std::filesystem::equivalent(folder / study.file, origin.path, error);
+  return is_same_file(folder / study.file, origin.path);
 }
 
 void take_setup(engine::CaseProxy& proxy, std::function<void(const CaseSetup&)> answer,

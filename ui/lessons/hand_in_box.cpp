@@ -19,6 +19,7 @@
 #include "ui/settings.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/pdf_file.h"
 
 namespace tidemark::ui {
 namespace {
@@ -115,7 +116,7 @@ void HandInBox::write(const QString& file) {
   answers.student = name_->text().trimmed().toStdString();
   answers.date = QDate::currentDate().toString(Qt::ISODate).toStdString();
   jobs_.write([lesson = course_.lesson(), answers, path = path_of(file)](const Progress&) -> Status {
-    if (path.extension() == ".pdf") return write_answer_sheet(lesson, answers, path);
+    if (is_pdf_name(path)) return write_answer_sheet(lesson, answers, path);
     return write_file(path, document::to_csv(lesson, answers));
   });
   follow();

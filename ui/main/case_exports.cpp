@@ -65,9 +65,11 @@ std::vector<std::pair<QString, QString>> parameters_of(const engine::CaseProxy& 
   std::vector<std::pair<QString, QString>> parameters{
       {CaseExports::tr("Start"), state.start_text}, {CaseExports::tr("Driven by"), driven_by(proxy.drive())}};
   if (document::uses_tent(proxy.drive())) {
+    const int decimals = value_decimals(proxy.summary().high - proxy.summary().low);
     const QString unit = value_unit(proxy.volume());
-    parameters.emplace_back(CaseExports::tr("Target T"), number_text(state.parameters.target, 1, unit));
-    parameters.emplace_back(CaseExports::tr("Range ε"), number_text(state.parameters.range, 1, unit));
+    parameters.emplace_back(CaseExports::tr("Target T"),
+                            number_text(state.parameters.target, decimals, unit));
+    parameters.emplace_back(CaseExports::tr("Range ε"), number_text(state.parameters.range, decimals, unit));
   }
   parameters.emplace_back(CaseExports::tr("Data weight α"), number_text(state.parameters.alpha, 3));
   if (state.smoothed_mm > 0.0)

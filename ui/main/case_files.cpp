@@ -47,8 +47,8 @@ QString CaseFiles::ask_for_file(CaseWindow& window, const QString& title, const 
 }
 
 void CaseFiles::write(CaseWindow& window, const QString& file, Work work, Ended ended) {
-  run(about_writing(window, file), file, audited(window.proxy().shared_study(), file, std::move(work)),
-      std::move(ended));
+  run({about_writing(window, file), file, audited(window.proxy().shared_study(), file, std::move(work)),
+       std::move(ended)});
 }
 
 void CaseFiles::write_contents(CaseWindow& window, const QString& file,
@@ -56,27 +56,45 @@ void CaseFiles::write_contents(CaseWindow& window, const QString& file,
   window.proxy().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
                                                      study = window.proxy().shared_study(),
                                                      work = std::move(work)](const auto& snapshot) {
-    run(about, file, audited(study, file, [snapshot, work] { return work(snapshot->contents); }), {});
+    run({about, file, audited(study, file, [snapshot, work] { return work(snapshot->contents); }), {}});
   });
 }
 
-void CaseFiles::run(const QString& about, const QString& file, Work work, Ended ended) {
-  const auto end = [this, about, file, ended = std::move(ended)](const Status& status) {
-    if (status) {
-      window_.dismiss_about(about);
-      window_.statusBar()->showMessage(tr("Wrote %1").arg(file), 8000);
-    } else {
-      window_.tell(engine::message_text(status.error()), about);
-    }
-    if (ended) ended(status.has_value());
-    if (status) emit written(file);
-  };
+void CaseFiles::run(Write write) {
+  Write* before = nullptr;
+  for (Write& other : writes_) {
+    if (other.next == nullptr && is_same_place(other.file, write.file)) before = &other;
+  }
+  writes_.push_back(std::move(write));
+  if (before) {
+    before->next = &writes_.back();
+  } else {
+    start(writes_.back());
+  }
+}
+
+void CaseFiles::start(Write& write) {
   jobs_.push_back(engine::BackgroundJob::start(
       this,
-      [work = std::move(work), end](engine::BackgroundJob& job) {
-        job.deliver([end, status = work()] { end(status); });
+      [this, &write, work = std::move(write.work)](engine::BackgroundJob& job) {
+        job.deliver([this, &write, status = work()] { end(write, status); });
       },
-      [end](const Error& error) { end(tl::unexpected<Error>(error)); }));
+      [this, &write](const Error& error) { end(write, tl::unexpected<Error>(error)); }));
+}
+
+void CaseFiles::end(const Write& write, const Status& status) {
+  const Write done = write;
+  writes_.remove_if([&](const Write& one) { return &one == &write; });
+  if (done.next) start(*done.next);
+  if (status) {
+    window_.dismiss_about(done.about);
+    window_.statusBar()->showMessage(tr("Wrote %1").arg(done.file), 8000);
+  } else {
+    window_.tell(engine::message_text(status.error()), done.about);
+  }
+  if (done.ended) done.ended(status.has_value());
+  if (status) emit written(done.file);
+  emit ended();
 }
 
 }  // namespace tidemark::ui

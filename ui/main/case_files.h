@@ -4,6 +4,7 @@
 #include <QObject>
 #include <filesystem>
 #include <functional>
+#include <list>
 #include <memory>
 #include <vector>
 
@@ -18,7 +19,8 @@ namespace tidemark::ui {
 
 class MainWindow;
 
-// Files are written on threads of their own; how it went is said in the window.
+// Files are written on threads of their own; how it went is said in the window. What goes to one file is
+// written in the order of the calls.
 class CaseFiles : public QObject {
   Q_OBJECT
  public:
@@ -35,14 +37,27 @@ class CaseFiles : public QObject {
   // From what the case is like now.
   void write_contents(CaseWindow& window, const QString& file,
                       std::function<Status(const document::SessionContents&)> work);
+  [[nodiscard]] bool writing() const { return !writes_.empty(); }
 
  signals:
   void written(const QString& file);
+  void ended();  // well or not
 
  private:
-  void run(const QString& about, const QString& file, Work work, Ended ended);
+  struct Write {
+    QString about;
+    QString file;
+    Work work;
+    Ended ended;
+    Write* next = nullptr;  // to the same file; it waits for this one
+  };
+
+  void run(Write write);
+  void start(Write& write);
+  void end(const Write& write, const Status& status);
 
   MainWindow& window_;
+  std::list<Write> writes_;  // that have not ended
   std::vector<std::shared_ptr<engine::BackgroundJob>> jobs_;
 };
 

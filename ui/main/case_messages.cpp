@@ -105,9 +105,7 @@ void CaseMessages::tell_outcome() {
 }
 
 void CaseMessages::widen(double range) {
-  solver::Parameters parameters = window_.proxy().parameters();
-  parameters.range = range;
-  window_.proxy().set_parameters(parameters);
+  window_.proxy().change_parameters([range](solver::Parameters& parameters) { parameters.range = range; });
   window_.proxy().play();
 }
 

@@ -453,10 +453,11 @@ Status CaseWindow::restore_view(const document::SessionContents& contents) {
   engine::DisplaySettings settings = proxy_->display().settings();
   settings.images.clear();
   for (const auto& image : contents.images) settings.images.push_back(engine::shown_image(image));
-  if (const auto& drive = contents.recipe.final_drive(); drive && document::uses_images(drive->setting))
-    engine::use_images(settings.images, drive->images);
+  // Their looks are saved in that order.
   auto shown = engine::display_settings(state["display"].toString("{}").toStdString(), settings);
   if (shown) settings = *shown;
+  const auto& drive = contents.wanted_drive ? contents.wanted_drive : contents.recipe.final_drive();
+  if (drive && document::uses_images(drive->setting)) engine::use_images(settings.images, drive->images);
   proxy_->set_saved(settings);
   proxy_->display().set(settings);
   return shown ? Status() : pass_on(shown);
@@ -466,6 +467,7 @@ void CaseWindow::close_saved() {
   saved_ = true;
   // The MDI child, and with it this.
   if (parentWidget()) parentWidget()->close();
+  saved_ = false;  // it may have stayed: while a question about it is open, nothing closes it
 }
 
 void CaseWindow::closeEvent(QCloseEvent* event) {

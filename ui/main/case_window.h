@@ -3,6 +3,7 @@
 
 #include <QMainWindow>
 #include <QPointer>
+#include <QStringList>
 #include <memory>
 
 #include "engine/case_autosave.h"
@@ -84,6 +85,7 @@ class CaseWindow : public QMainWindow {
   [[nodiscard]] engine::CaseAutosave& autosave() { return *autosave_; }
   // The case's own file, once it has one.
   QString session_file;
+  QStringList files_being_saved;  // to which the case is on its way
 
  signals:
   // The number changed, or whether the case is linked, or how it differs from the others.

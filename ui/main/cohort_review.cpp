@@ -36,8 +36,14 @@ cohort::CohortFolder folder_of(const QString& path) {
   return cohort::CohortFolder(path_of(path));
 }
 
-CohortCase::Surface surface_of(const document::Recipe& recipe) {
-  return {recipe.steps, recipe.events.size()};
+// The state whose surface that one has: changes of labels leave the surface as it was.
+std::uint64_t state_of_surface(const engine::HistoryRows& rows, std::uint64_t id) {
+  // Parents come before their children.
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+    const document::HistoryState& state = row->state;
+    if (state.id == id && state.parent && document::is_of_labels(state.change.kind)) id = *state.parent;
+  }
+  return id;
 }
 
 }  // namespace
@@ -222,7 +228,9 @@ bool CohortReview::is_changed() const {
   CaseWindow* window = open_window();
   if (!window || !window->proxy().state().begun) return false;
   const engine::CaseState& state = window->proxy().state();
-  return open_->result != CohortCase::Surface(state.step, state.steered);
+  if (!open_->result || state.open_change) return true;
+  return state_of_surface(*state.history, state.history_state) !=
+         state_of_surface(*state.history, *open_->result);
 }
 
 int CohortReview::meant_row() const {
@@ -267,7 +275,9 @@ void CohortReview::open_case(int row) {
     return correct();
   }
   if (box.standardButton(box.clickedButton()) != QMessageBox::Discard) return;
-  leave(*open_window());
+  // Labels of the user's own are not the surface: with them the case stays, as any other.
+  CaseWindow& left = *open_window();
+  if (left.proxy().state().labels.empty()) left.close_saved();
   if (const int wanted = model_->row_of(id); wanted >= 0) load(wanted);
 }
 
@@ -301,7 +311,7 @@ void CohortReview::add(const std::shared_ptr<const engine::LoadedStudy>& study,
   const cohort::ReviewEntry& entry = model_->at(row);
   auto open =
       std::make_shared<CohortCase>(CohortCase{entry.row.id, &opened->proxy(), opened, {}, entry.status});
-  if (contents) open->result = surface_of(contents->recipe);
+  if (contents) open->result = contents->history.present;
   take_case(std::move(open));
   if (is_free) leave(*before);
   // The panels of the first case bring back an arrangement that knows of no cohort.
@@ -324,9 +334,11 @@ void CohortReview::follow_closing() {
   follow_case();
 }
 
-// With labels of the user's own it stays, as any other case.
+// With anything that the cohort does not keep, such as labels, it stays, as any other case.
 void CohortReview::leave(CaseWindow& window) {
-  if (window.proxy().state().labels.empty()) window.close_saved();
+  window.proxy().after_commands([leaving = QPointer(&window)] {
+    if (leaving && !leaving->proxy().state().modified) leaving->close_saved();
+  });
 }
 
 // What is said.
@@ -380,7 +392,7 @@ void CohortReview::write_correction(const std::shared_ptr<const engine::CaseProx
     if (!status->id.empty()) {
       model_->set_status(*status);
       open->seen = *status;
-      open->result = surface_of(snapshot->contents.recipe);
+      open->result = snapshot->position;
       // The cohort keeps all of it, but for labels.
       if (open->window && snapshot->contents.labels.empty()) open->window->proxy().mark_saved(*snapshot);
     }

@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "document/cohort/review_list.h"
 #include "document/session_contents.h"
@@ -33,13 +32,10 @@ class MainWindow;
 
 // The case of a cohort that is open.
 struct CohortCase {
-  // A surface as the history has it: steps, and edits since the start.
-  using Surface = std::pair<std::int64_t, std::uint64_t>;
-
   std::string id;
   const engine::CaseProxy* proxy = nullptr;  // by which another main window knows it
   QPointer<CaseWindow> window;
-  std::optional<Surface> result;           // that the cohort has; unset: none
+  std::optional<std::uint64_t> result;     // the state of the history that the cohort has; unset: none
   std::optional<cohort::CaseStatus> seen;  // likewise
 };
 
@@ -79,7 +75,7 @@ class CohortReview : public QObject {
            const std::shared_ptr<const document::SessionContents>& contents);
   void take_case(std::shared_ptr<CohortCase> open);
   void follow_closing();
-  void leave(CaseWindow& window);
+  static void leave(CaseWindow& window);
   [[nodiscard]] CaseWindow* open_window() const;  // null: none
   [[nodiscard]] int open_row() const;             // -1: none
   [[nodiscard]] bool is_changed() const;          // the open case's surface

@@ -33,16 +33,21 @@ FilmWriter::FilmWriter(MainWindow& window, CaseFiles& files)
   window.statusBar()->addPermanentWidget(progress_);
   connect(&jobs_, &engine::ResultJobs::progressed, progress_, &LoadingView::set_progress);
   connect(progress_, &LoadingView::cancelled, &jobs_, &engine::ResultJobs::cancel);
-  connect(&jobs_, &engine::ResultJobs::cancelled, progress_, &QWidget::hide);
+  connect(&jobs_, &engine::ResultJobs::cancelled, this, [this] {
+    progress_->hide();
+    emit ended();
+  });
   connect(&jobs_, &engine::ResultJobs::failed, this, [this](const QString& message) {
     progress_->hide();
     window_.tell(message, kAboutFilms);
+    emit ended();
   });
   connect(&jobs_, &engine::ResultJobs::written, this, [this] {
     progress_->hide();
     window_.dismiss_about(kAboutFilms);
     window_.statusBar()->showMessage(tr("Wrote %1").arg(file_), 8000);
     emit files_.written(file_);
+    emit ended();
   });
 }
 

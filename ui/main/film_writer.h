@@ -20,6 +20,10 @@ class FilmWriter : public QObject {
 
   void ask_and_write(CaseWindow& window);
   void write(CaseWindow& window, const QString& file);
+  [[nodiscard]] bool writing() const { return jobs_.busy(); }
+
+ signals:
+  void ended();  // well or not
 
  private:
   [[nodiscard]] bool may_begin();  // says why not

@@ -53,33 +53,32 @@ void LanguageSwitch::make_window() {
 }
 
 void LanguageSwitch::choose(const QAction& language) {
-  const QString before = settings::language().get();
-  const QString wanted = language.data().toString();
-  if (wanted == before) return;
-  if (!is_at_work(*window_) && window_->teaching().editor_may_close()) {
-    settings::language().set(wanted);
-    return wait();
-  }
+  const bool waits = std::exchange(wanted_, language.data().toString()).has_value();
+  patience_.setRemainingTime(kPatienceMs);
+  if (!waits) look(false);
+}
+
+// The menu whose entry it was is still at work, and perhaps a copy against a crash is: both end soon. Who
+// does not see the change by then goes on with other work, which must not end with the window. Answers that
+// were posted before it is quiet arrive before it is so a second time.
+void LanguageSwitch::look(bool was_quiet) {
+  if (wanted_ == settings::language().get()) return wanted_.reset();
+  if (is_at_work(*window_) || patience_.hasExpired()) return refuse();
+  const bool quiet = is_quiet(*window_);
+  if (quiet && was_quiet) return change();
+  QTimer::singleShot(kLookAgainMs, this, [this, quiet] { look(quiet); });
+}
+
+void LanguageSwitch::refuse() {
+  wanted_.reset();
   for (QAction* action : window_->actions().languages->actions())
-    action->setChecked(action->data().toString() == before);
+    action->setChecked(action->data().toString() == settings::language().get());
   window_->tell(MainWindow::tr(
       "The language can be changed once dialogs are closed and nothing is being read or written."));
 }
 
-// The menu whose entry it was is still at work, and perhaps a copy against a crash is. Answers that were
-// posted before it is quiet arrive before it is so a second time.
-void LanguageSwitch::wait() {
-  if (!std::exchange(waiting_, true)) QTimer::singleShot(kLookAgainMs, this, [this] { look(false); });
-}
-
-void LanguageSwitch::look(bool was_quiet) {
-  const bool quiet = is_quiet(*window_);
-  if (!quiet || !was_quiet) return QTimer::singleShot(kLookAgainMs, this, [this, quiet] { look(quiet); });
-  waiting_ = false;
-  change();
-}
-
 void LanguageSwitch::change() {
+  settings::language().set(*std::exchange(wanted_, std::nullopt));
   MainWindow::Kept kept = window_->keep();
   // Between two windows there is none, which is no reason to end.
   const bool ends = QGuiApplication::quitOnLastWindowClosed();

@@ -1,8 +1,11 @@
 // The main window in the language that the user wants.
 #pragma once
 
+#include <QDeadlineTimer>
 #include <QObject>
+#include <QString>
 #include <memory>
+#include <optional>
 
 #include "engine/engine.h"
 
@@ -25,15 +28,17 @@ class LanguageSwitch : public QObject {
 
  private:
   static constexpr int kLookAgainMs = 20;
+  static constexpr int kPatienceMs = 5000;
   void make_window();
   void choose(const QAction& language);
-  void wait();
   void look(bool was_quiet);
+  void refuse();
   void change();
 
   engine::Engine& engine_;
   std::unique_ptr<MainWindow> window_;
-  bool waiting_ = false;  // for a moment at which nothing would be lost
+  std::optional<QString> wanted_;  // as soon as nothing would be lost
+  QDeadlineTimer patience_;
 };
 
 }  // namespace tidemark::ui

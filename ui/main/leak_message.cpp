@@ -60,20 +60,18 @@ void LeakMessage::go_back() {
 void LeakMessage::wall_off() {
   const auto alarm = told_;
   go_back();
-  document::Drive drive = window_.proxy().drive();
-  solver::Constraints walls =
-      drive.constraints ? *drive.constraints : solver::Constraints(window_.proxy().volume().geometry.size);
-  walls.set(alarm->leak.neck, solver::Constraint::wall);
-  drive.constraints = std::make_shared<const solver::Constraints>(std::move(walls));
-  window_.proxy().set_drive(drive);
+  window_.proxy().change_drive(
+      [alarm, size = window_.proxy().volume().geometry.size](document::Drive& drive) {
+        solver::Constraints walls = drive.constraints ? *drive.constraints : solver::Constraints(size);
+        walls.set(alarm->leak.neck, solver::Constraint::wall);
+        drive.constraints = std::make_shared<const solver::Constraints>(std::move(walls));
+      });
   window_.proxy().play();
 }
 
 void LeakMessage::lower_alpha(double alpha) {
   go_back();
-  solver::Parameters parameters = window_.proxy().parameters();
-  parameters.alpha = alpha;
-  window_.proxy().set_parameters(parameters);
+  window_.proxy().change_parameters([alpha](solver::Parameters& parameters) { parameters.alpha = alpha; });
   window_.proxy().play();
 }
 

@@ -154,6 +154,8 @@ void MainWindow::connect_files() {
   connect(session_reader_, &SessionReader::opened, this, &MainWindow::remember);
   connect(session_writer_, &SessionWriter::saved, this, &MainWindow::remember);
   connect(session_writer_, &SessionWriter::not_saved, this, [this] { quitting_ = false; });
+  connect(files_, &CaseFiles::ended, this, &MainWindow::quit_at_last);
+  connect(films_, &FilmWriter::ended, this, &MainWindow::quit_at_last);
   connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
 }
 
@@ -225,6 +227,7 @@ CaseWindow* MainWindow::add_case(const std::shared_ptr<const engine::LoadedStudy
     }
   });
   dismiss_about(kAboutOpening);
+  quitting_ = false;  // nobody was asked about this one
   window->set_number(free_number());
   // The event loop runs between making a case and showing it.
   const auto show = [this, child = QPointer(place(window)), study, restored] {
@@ -349,7 +352,9 @@ QList<CaseWindow*> MainWindow::cases() const {
 CaseWindow* MainWindow::case_of_session(const QString& file) const {
   const QList<CaseWindow*> all = cases();
   const auto found = std::find_if(all.begin(), all.end(), [&](const CaseWindow* window) {
-    return is_same_file(window->session_file, file);
+    const auto is_it = [&](const QString& one) { return is_same_place(one, file); };
+    const QStringList& coming = window->files_being_saved;
+    return is_it(window->session_file) || std::any_of(coming.begin(), coming.end(), is_it);
   });
   return found == all.end() ? nullptr : *found;
 }
@@ -371,8 +376,7 @@ void MainWindow::activate(QMdiSubWindow* child) {
   if (!active_) {
     centre_->setCurrentIndex(0);
     messages_->dismiss();  // it was about a closed case
-    if (std::exchange(quitting_, false))
-      QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
+    quit_at_last();
   }
   engine::CaseProxy* proxy = active_ ? &active_->proxy() : nullptr;
   panels_->set_case(active_);
@@ -442,22 +446,39 @@ void MainWindow::connect_help() {
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!may_give_up_work(*this) || !cohort_->may_close() || !teaching_->may_close()) return event->ignore();
   if (!close_cases()) return event->ignore();
+  if (files_->writing() || films_->writing()) {
+    quitting_ = true;
+    tell(tr("Tidemark closes once all files are written."));
+    return event->ignore();
+  }
   keep_arrangement();
   event->accept();
 }
 
 // Those without changes close last: a case that the user keeps open keeps what is left open, too. Where cases
-// close once they are saved, closing is tried again after that.
+// close once they are saved, closing is tried again after that. While one asks, others may go.
 bool MainWindow::close_cases() {
   quitting_ = false;
-  QList<CaseWindow*> all = cases();
+  QList<QPointer<CaseWindow>> all;
+  for (CaseWindow* window : cases()) all << window;
   std::stable_partition(all.begin(), all.end(),
-                        [](CaseWindow* window) { return window->proxy().state().modified; });
-  for (CaseWindow* window : all) {
-    if (!window->parentWidget()->close() && !session_writer_->closes_later(*window)) return false;
+                        [](const QPointer<CaseWindow>& window) { return window->proxy().state().modified; });
+  const auto closes_later = [this](const CaseWindow* window) {
+    return session_writer_->closes_later(*window);
+  };
+  for (const QPointer<CaseWindow>& window : all) {
+    if (!window || closes_later(window)) continue;
+    if (!window->parentWidget()->close() && window && !closes_later(window)) return false;
   }
-  quitting_ = !cases().isEmpty();
-  return !quitting_;
+  const QList<CaseWindow*> left = cases();
+  quitting_ = !left.isEmpty() && std::all_of(left.begin(), left.end(), closes_later);
+  return left.isEmpty();
+}
+
+// Once nothing is left that it waits for.
+void MainWindow::quit_at_last() {
+  if (cases().isEmpty() && std::exchange(quitting_, false))
+    QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
 }
 
 void MainWindow::keep_arrangement() const {

@@ -72,7 +72,7 @@ class MainWindow : public QMainWindow {
 
   [[nodiscard]] CaseWindow* active_case() const;  // null: none
   void bring_to_front(CaseWindow& window);
-  // The open case whose session is in that file; null: none.
+  // The open case whose session is in that file, or will be once it is written; null: none.
   [[nodiscard]] CaseWindow* case_of_session(const QString& file) const;
   [[nodiscard]] QList<CaseWindow*> cases() const;
   [[nodiscard]] Actions& actions() { return *actions_; }
@@ -121,6 +121,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] int free_number() const;
   void activate(QMdiSubWindow* window);
   [[nodiscard]] bool close_cases();  // whether none is left
+  void quit_at_last();
   void keep_arrangement() const;
   void follow_case();
   void follow_closing();
@@ -149,7 +150,7 @@ class MainWindow : public QMainWindow {
   Teaching* teaching_ = nullptr;
   Help* help_ = nullptr;
   QPointer<CaseWindow> active_;
-  bool quitting_ = false;
+  bool quitting_ = false;  // once cases are saved and files are written
   QList<QMetaObject::Connection> active_connections_;
 };
 

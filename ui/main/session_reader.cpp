@@ -67,8 +67,12 @@ void SessionReader::ask_and_open() {
 // A file is open once: two cases would write over each other's work.
 void SessionReader::open(const QString& file) {
   if (CaseWindow* window = window_.case_of_session(file)) return window_.bring_to_front(*window);
-  const auto waits = [&](const Waiting& waiting) { return is_same_file(waiting.file, file); };
-  if (std::none_of(waiting_.begin(), waiting_.end(), waits)) read(file, {});
+  if (!reads(file)) read(file, {});
+}
+
+bool SessionReader::reads(const QString& file) const {
+  return std::any_of(waiting_.begin(), waiting_.end(),
+                     [&](const Waiting& waiting) { return is_same_place(waiting.file, file); });
 }
 
 void SessionReader::read(const QString& file, const std::string& rescued) {
@@ -147,6 +151,7 @@ void SessionReader::judge(const std::shared_ptr<const engine::LoadedStudy>& stud
              "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
     return end_reading();
   }
+  waiting_.front().other_voxels = found == document::VolumeMatch::other_voxels;
   find_images(study);
 }
 
@@ -169,13 +174,14 @@ void SessionReader::restore(const std::shared_ptr<const engine::LoadedStudy>& st
                             std::shared_ptr<const document::SessionContents> contents,
                             const QStringList& problems) {
   const Waiting waiting = waiting_.front();
-  CaseWindow* window = window_.add_case(study, {std::move(contents), !waiting.rescued.empty()});
-  if (waiting.rescued.empty()) {
+  // A file about other voxels is never written over with these.
+  const bool in_file = waiting.rescued.empty() && !waiting.other_voxels;
+  CaseWindow* window = window_.add_case(study, {std::move(contents), !in_file});
+  if (in_file) {
     window->session_file = waiting.file;
     emit opened(*window);
-  } else {
-    keep_rescued(*window, waiting.rescued);
   }
+  if (!waiting.rescued.empty()) keep_rescued(*window, waiting.rescued);
   end_reading(problems.join(QLatin1Char('\n')));
 }
 
@@ -185,7 +191,8 @@ void SessionReader::keep_rescued(CaseWindow& window, const std::string& copy) {
   connect(&window.autosave(), &engine::CaseAutosave::saved, this, remove, Qt::SingleShotConnection);
   const auto closed = connect(&window, &QObject::destroyed, this, remove);
   connect(&window.proxy(), &engine::CaseProxy::given_up, this, [closed] { disconnect(closed); });
-  window.autosave().save_soon();
+  // Behind what shows the case as it was, which is queued, too: the new copy has its images and measurements.
+  QMetaObject::invokeMethod(&window.autosave(), &engine::CaseAutosave::save_soon, Qt::QueuedConnection);
 }
 
 // To tell whether a copy is whole, all of it is read.

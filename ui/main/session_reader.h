@@ -30,6 +30,8 @@ class SessionReader : public QObject {
 
   void ask_and_open();
   void open(const QString& file);
+  // Whether a case of that session is on its way.
+  [[nodiscard]] bool reads(const QString& file) const;
 
   // Tells of copies of cases, and of a lesson's answers, that a program left behind that died, and opens them
   // if the user wants.
@@ -43,7 +45,8 @@ class SessionReader : public QObject {
   struct Waiting {
     std::shared_ptr<const document::SessionContents> contents;
     QString file;
-    std::string rescued;  // the copy's case; empty: a file of the user's
+    std::string rescued;        // the copy's case; empty: a file of the user's
+    bool other_voxels = false;  // than the study has now
   };
 
   void read(const QString& file, const std::string& rescued);

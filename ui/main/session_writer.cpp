@@ -2,9 +2,11 @@
 
 #include <QCloseEvent>
 #include <QMessageBox>
+#include <utility>
 
 #include "document/session_file.h"
 #include "ui/main/main_window.h"
+#include "ui/main/session_reader.h"
 #include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
@@ -29,35 +31,36 @@ void SessionWriter::save_as(CaseWindow& window) {
 QString SessionWriter::ask_for_file(CaseWindow& window) {
   const QString file = files_.ask_for_file(window, tr("Save the session"), session_filter());
   const CaseWindow* owner = window_.case_of_session(file);
-  if (!owner || owner == &window) return file;
+  if (owner ? owner == &window : !window_.session_reader().reads(file)) return file;
   window_.tell(tr("%1 is the session of another open case. Choose another name.").arg(file));
   return {};
 }
 
 void SessionWriter::save_to(CaseWindow& window, const QString& file, CaseFiles::Ended ended) {
-  const auto write = [this, file, ended, saving = QPointer(&window)](const auto& snapshot) {
-    if (!saving) {
-      if (ended) ended(false);
-      return;
-    }
+  const auto end = [file, ended = std::move(ended), saving = QPointer(&window)](bool written) {
+    if (saving) saving->files_being_saved.removeOne(file);
+    if (ended) ended(written);
+  };
+  const auto write = [this, file, end, saving = QPointer(&window)](const auto& snapshot) {
+    if (!saving) return end(false);
     const auto work = [snapshot, path = path_of(file)] {
       return document::write_session(snapshot->contents, path);
     };
-    files_.write(*saving, file, work, [this, file, saving, snapshot, ended](bool written) {
+    files_.write(*saving, file, work, [this, file, saving, snapshot, end](bool written) {
       if (saving && written) {
         saving->session_file = file;
         saving->proxy().mark_saved(*snapshot);
         emit saved(*saving);
       }
-      if (ended) ended(written);
+      end(written);
     });
   };
-  window.proxy().take_snapshot(window.view_state(), write, [ended] {
-    if (ended) ended(false);
-  });
+  window.files_being_saved << file;
+  window.proxy().take_snapshot(window.view_state(), write, [end] { end(false); });
 }
 
 void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
+  if (closes_later(window)) return event->ignore();
   if (!window.proxy().state().modified) return event->accept();
   const auto answer = QMessageBox::question(
       &window_, tr("Close"), tr("%1 has changes that are not in a session file.").arg(window.proxy().name()),
@@ -74,6 +77,7 @@ void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
     if (!closing) return;
     if (!written) return keep_open(*closing);
     closing->proxy().after_commands([this, closing] {
+      if (!closing) return;
       if (!closing->proxy().state().modified) return closing->close_saved();
       window_.tell(
           tr("%1 was changed while it was being saved, and stays open.").arg(closing->proxy().name()));

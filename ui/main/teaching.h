@@ -55,7 +55,6 @@ class Teaching : public QObject {
   // Whether the program may end: asks about answers that were not handed in, and about a lesson that was
   // written and not saved.
   [[nodiscard]] bool may_close();
-  [[nodiscard]] bool editor_may_close();
   // The lesson that is being done, if there is one, to be taken over by another main window.
   [[nodiscard]] std::unique_ptr<KeptLesson> keep();
   void take_over(std::unique_ptr<KeptLesson> kept);
@@ -73,6 +72,7 @@ class Teaching : public QObject {
   // Whether the lesson may go: asks about answers that were not handed in.
   [[nodiscard]] bool may_end(const QString& question);
   [[nodiscard]] bool may_end();  // while the cases stay
+  [[nodiscard]] bool editor_may_close();
   void open_case(const std::shared_ptr<const engine::LoadedStudy>& study);
   void show_case(engine::CaseProxy& proxy, const document::LessonTry& attempt);
   void name_case();

@@ -55,8 +55,13 @@ void ServerChoice::read() {
 }
 
 void ServerChoice::edit() {
-  ServersDialog dialog(file_, this);
-  if (dialog.exec() != QDialog::Accepted) return;
+  auto* dialog = new ServersDialog(file_, this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QDialog::accepted, this, &ServerChoice::read_again);
+  dialog->open();
+}
+
+void ServerChoice::read_again() {
   const auto before = server() ? std::optional(*server()) : std::nullopt;
   {
     const QSignalBlocker quiet(server_);  // the list is made anew, and not chosen from

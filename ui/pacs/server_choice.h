@@ -30,6 +30,7 @@ class ServerChoice : public QWidget {
  private:
   void read();
   void edit();
+  void read_again();
 
   std::filesystem::path file_;
   imaging::PacsConfiguration configuration_;

@@ -205,8 +205,11 @@ QLineEdit* ServersDialog::file_line(const QString& label, const QString& tip, co
   choose->setAccessibleName(tr("Choose a file: %1").arg(label));
   QLineEdit* line = add_path_line(form, label, tip, choose);
   connect(choose, &QToolButton::clicked, this, [this, line, kinds] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Choose a file"), line->text(), kinds);
-    if (!file.isEmpty()) line->setText(file);
+    auto* dialog = new QFileDialog(this, tr("Choose a file"), line->text(), kinds);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setFileMode(QFileDialog::ExistingFile);
+    connect(dialog, &QFileDialog::fileSelected, line, &QLineEdit::setText);
+    dialog->open();
   });
   return line;
 }

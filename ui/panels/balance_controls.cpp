@@ -108,7 +108,7 @@ void BalanceControls::refresh() {
 void BalanceControls::show_place() {
   const engine::ExplainedPlace& place = *proxy()->balance().place();
   const engine::SourceSummary& summary = proxy()->summary();
-  const int decimals = std::max(1, decimals_for(summary.high - summary.low));
+  const int decimals = value_decimals(summary.high - summary.low);
   bars_->set_place(place);
   pace_->setText(tr("%1 mm").arg(short_text(place.sum_mm(), 2)));
   step_->setText(tr("%1 mm").arg(short_text(place.sum_mm() * place.time_step, 2)));

@@ -90,7 +90,9 @@ ExampleControls::ExampleControls(QWidget* parent) : CaseWidget(parent), content_
   clear_ = new QPushButton(tr("Clear strokes"));
   clear_->setToolTip(tr("Takes all examples away; Undo brings them back."));
   connect(clear_, &QPushButton::clicked, this, [this] {
-    if (proxy()) proxy()->set_drive(taught(proxy()->drive(), nullptr), engine::CaseProxy::new_gesture());
+    if (!proxy()) return;
+    proxy()->change_drive([](document::Drive& drive) { drive = taught(drive, nullptr); },
+                          engine::CaseProxy::new_gesture());
   });
   row->addWidget(tool_);
   row->addWidget(clear_);

@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "engine/stroke_painting.h"
 #include "ui/look/icons.h"
@@ -22,6 +23,11 @@ QVBoxLayout* column_on(QWidget* widget) {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(kSpace);
   return column;
+}
+
+// By the time of a change an undo may have brought other terms.
+bool is_at(const solver::SpeedSetting& setting, std::size_t place, const solver::SpeedKind& kind) {
+  return place < setting.terms.size() && setting.terms[place].function == kind.name;
 }
 
 }  // namespace
@@ -113,13 +119,17 @@ void FunctionControls::show_terms(const solver::SpeedSetting& setting) {
     connect(controls, &TermControls::function_chosen, this,
             [this, place](const QString& function) { choose(place, function); });
     connect(controls, &TermControls::number_edited, this,
-            [this, place](const QString& name, double value, std::uint64_t gesture) {
-              change([&](solver::SpeedSetting& s) { s.terms[place].values[name.toStdString()] = value; },
-                     gesture);
+            [this, place, kind](const QString& name, double value, std::uint64_t gesture) {
+              change(
+                  [place, kind, name = name.toStdString(), value](solver::SpeedSetting& s) {
+                    if (is_at(s, place, *kind)) s.terms[place].values[name] = value;
+                  },
+                  gesture);
             });
-    connect(controls, &TermControls::remove_wanted, this, [this, place] {
-      change([&](solver::SpeedSetting& s) {
-        s.terms.erase(s.terms.begin() + static_cast<std::ptrdiff_t>(place));
+    connect(controls, &TermControls::remove_wanted, this, [this, place, kind] {
+      change([place, kind](solver::SpeedSetting& s) {
+        if (s.terms.size() > 1 && is_at(s, place, *kind))
+          s.terms.erase(s.terms.begin() + static_cast<std::ptrdiff_t>(place));
       });
     });
     list_->addWidget(controls);
@@ -147,7 +157,7 @@ void FunctionControls::choose(std::size_t place, const QString& function) {
     if (kind->needs_strokes) proxy()->display().choose_tool(engine::Tool::examples);
     return;
   }
-  change([&](solver::SpeedSetting& setting) {
+  change([place, kind](solver::SpeedSetting& setting) {
     if (place < setting.terms.size()) {
       setting.terms[place] = {kind->name, {}};
     } else {
@@ -160,12 +170,12 @@ void FunctionControls::choose(std::size_t place, const QString& function) {
 void FunctionControls::take_map(const std::shared_ptr<const document::SpeedMap>& map) {
   if (!proxy()) return;
   say({});
-  document::Drive drive = proxy()->drive();
-  drive.map = map;
-  auto& terms = drive.setting.terms;
-  if (place_of_map_ && *place_of_map_ < terms.size()) terms[*place_of_map_] = {"image", {}};
-  place_of_map_.reset();
-  proxy()->set_drive(drive, engine::CaseProxy::new_gesture());
+  const auto take = [map, place = std::exchange(place_of_map_, std::nullopt)](document::Drive& drive) {
+    drive.map = map;
+    auto& terms = drive.setting.terms;
+    if (place && *place < terms.size()) terms[*place] = {"image", {}};
+  };
+  proxy()->change_drive(take, engine::CaseProxy::new_gesture());
 }
 
 // The first that is not there yet and lacks nothing.
@@ -183,9 +193,8 @@ void FunctionControls::add_term() {
 void FunctionControls::change(const std::function<void(solver::SpeedSetting&)>& apply,
                               std::uint64_t gesture) {
   if (!proxy()) return;
-  document::Drive drive = proxy()->drive();
-  apply(drive.setting);
-  proxy()->set_drive(drive, gesture != 0 ? gesture : engine::CaseProxy::new_gesture());
+  proxy()->change_drive([apply](document::Drive& drive) { apply(drive.setting); },
+                        gesture != 0 ? gesture : engine::CaseProxy::new_gesture());
 }
 
 }  // namespace tidemark::ui

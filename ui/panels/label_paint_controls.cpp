@@ -105,7 +105,7 @@ void LabelPaintControls::attach() {
   // T ± ε may reach beyond all values.
   const double all = summary.highest - summary.lowest;
   for (SliderNumber* number : {low_, high_}) {
-    number->set_decimals(std::max(1, decimals_for(summary.high - summary.low)));
+    number->set_decimals(value_decimals(summary.high - summary.low));
     number->set_range(summary.low, summary.high, summary.lowest - all, summary.highest + all);
     number->set_unit(value_unit(proxy()->volume()));
   }

@@ -202,7 +202,6 @@ void LabelToolControls::choose_tool() {
   if (chosen) QTimer::singleShot(0, this, [this] { bring_into_sight(*apply_); });
   if (proxy()) fill_others();
   look_again();
-  show_buttons();
 }
 
 void LabelToolControls::fill_others() {
@@ -223,7 +222,6 @@ void LabelToolControls::set_labels(const std::vector<std::uint8_t>& labels) {
   labels_ = labels;
   if (proxy()) fill_others();
   look_again();
-  show_buttons();
 }
 
 void LabelToolControls::set_take(document::Take take) {
@@ -233,6 +231,7 @@ void LabelToolControls::set_take(document::Take take) {
 
 void LabelToolControls::look_again() {
   if (proxy() && tool()) soon_.start();
+  show_buttons();
 }
 
 void LabelToolControls::look() {
@@ -262,9 +261,14 @@ void LabelToolControls::say(const QString& text) {
   show_buttons();
 }
 
+bool LabelToolControls::is_looked_at() const {
+  if (!finisher() || !tool() || !finisher()->is_current()) return false;
+  const engine::LabelPreview& preview = *finisher()->preview();
+  return preview.use == use() && preview.labels == labels_ && preview.take == take_;
+}
+
 void LabelToolControls::show_buttons() {
-  apply_->setEnabled(finisher() && tool() && finisher()->is_current() && finisher()->preview()->changes &&
-                     !finisher()->busy() && !soon_.isActive());
+  apply_->setEnabled(is_looked_at() && finisher()->preview()->changes && !finisher()->busy());
 }
 
 void LabelToolControls::attach() {
@@ -287,7 +291,7 @@ void LabelToolControls::attach() {
 
 void LabelToolControls::refresh() {
   fill_others();
-  if (tool() && !soon_.isActive() && !finisher()->asked_is_current(use())) look_again();
+  if (tool() && !soon_.isActive() && !finisher()->asked_is_current(use())) return look_again();
   show_buttons();
 }
 

@@ -36,6 +36,8 @@ class LabelToolControls : public CaseWidget {
   [[nodiscard]] engine::LabelFinisher* finisher() const;  // null: there is no case
   void choose_tool();
   void fill_others();
+  // Whether the preview is of all that is chosen here.
+  [[nodiscard]] bool is_looked_at() const;
   void look_again();  // soon
   void look();        // computes the preview
   void show_preview();

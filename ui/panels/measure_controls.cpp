@@ -111,8 +111,9 @@ void MeasureControls::fill_values() {
     const document::ImageValues& image = measures()->images[static_cast<std::size_t>(image_->currentIndex())];
     const imaging::InsideValues& inside = image.values;
     const QString unit = QString::fromStdString(image.unit);
+    const int decimals = inside.uptake ? 2 : value_decimals(image.span);
     const auto add = [&](const QString& name, double value) {
-      lines.push_back({name, number_text(value, inside.uptake ? 2 : 1, unit)});
+      lines.push_back({name, number_text(value, decimals, unit)});
     };
     add(tr("Mean"), inside.mean);
     add(tr("SD"), inside.standard_deviation);

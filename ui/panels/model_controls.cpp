@@ -242,13 +242,14 @@ void ModelControls::use_as_speed() {
 // In the place of a map that drives it already, else of the first function.
 void ModelControls::drive_by(const std::shared_ptr<const document::SpeedMap>& map) {
   if (asked_) {
-    document::Drive drive = asked_->drive();
-    drive.map = map;
-    auto& terms = drive.setting.terms;
-    const auto is_map = [](const solver::SpeedTerm& term) { return term.function == "image"; };
-    if (terms.empty()) terms.emplace_back();
-    if (std::ranges::none_of(terms, is_map)) terms.front() = {"image", {}};
-    asked_->set_drive(drive, engine::CaseProxy::new_gesture());
+    const auto take = [map](document::Drive& drive) {
+      drive.map = map;
+      auto& terms = drive.setting.terms;
+      const auto is_map = [](const solver::SpeedTerm& term) { return term.function == "image"; };
+      if (terms.empty()) terms.emplace_back();
+      if (std::ranges::none_of(terms, is_map)) terms.front() = {"image", {}};
+    };
+    asked_->change_drive(take, engine::CaseProxy::new_gesture());
   }
   end({});
 }

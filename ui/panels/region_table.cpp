@@ -4,6 +4,7 @@
 #include <QLocale>
 #include <QStringList>
 
+#include "core/csv.h"
 #include "engine/case_proxy.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/number_text.h"
@@ -45,15 +46,14 @@ QStringList cells(const engine::Measurement& measurement, const QString& name, c
   return row;
 }
 
-std::string csv_line(const QStringList& cells) {
-  QStringList quoted;
-  for (QString cell : cells) {
-    if (cell.contains(u',') || cell.contains(u'"') || cell.contains(u'\n') || cell.contains(u'\r')) {
-      cell = u'"' + cell.replace(u'"', QStringLiteral("\"\"")) + u'"';
-    }
-    quoted << cell;
+// The name and the unit of the values may come from files of others; the rest is numbers, and words of ours.
+std::string csv_row(const QStringList& cells) {
+  std::vector<std::string> fields;
+  for (const QString& cell : cells) {
+    const bool is_text = fields.empty() || fields.size() == kFigures;
+    fields.push_back(is_text ? csv_text(cell.toStdString()) : cell.toStdString());
   }
-  return quoted.join(u',').toStdString() + "\r\n";
+  return csv_line(fields);
 }
 
 QString with_unit(const QString& name, const QString& unit) {
@@ -102,13 +102,13 @@ std::string to_csv(engine::CaseProxy& proxy) {
   plain.setNumberOptions(QLocale::OmitGroupSeparator);
   const Notation notation{plain};
   std::string csv =
-      csv_line({QStringLiteral("name"), QStringLiteral("volume_ml"), QStringLiteral("area_mm2"),
-                QStringLiteral("voxels"), QStringLiteral("mean"), QStringLiteral("sd"),
-                QStringLiteral("value_unit"), QStringLiteral("measured"), QStringLiteral("measured_unit")});
+      csv_row({QStringLiteral("name"), QStringLiteral("volume_ml"), QStringLiteral("area_mm2"),
+               QStringLiteral("voxels"), QStringLiteral("mean"), QStringLiteral("sd"),
+               QStringLiteral("value_unit"), QStringLiteral("measured"), QStringLiteral("measured_unit")});
   for (const RegionRow& row : region_rows(proxy.state())) {
     QStringList line = cells(row, notation);
     line.insert(kFigures, row.values ? unit : QString());
-    csv += csv_line(line << QString());
+    csv += csv_row(line << QString());
   }
   for (const engine::Measurement& measurement : proxy.display().settings().measurements) {
     if (!measurement.complete()) continue;
@@ -116,7 +116,7 @@ std::string to_csv(engine::CaseProxy& proxy) {
     QStringList line =
         cells(measurement, distance ? QStringLiteral("distance") : QStringLiteral("angle"), notation);
     line.insert(kFigures, QString());
-    csv += csv_line(line << (distance ? QStringLiteral("mm") : QStringLiteral("degrees")));
+    csv += csv_row(line << (distance ? QStringLiteral("mm") : QStringLiteral("degrees")));
   }
   return csv;
 }

@@ -75,7 +75,7 @@ void SpeedControls::attach() {
   const QString unit = value_unit(proxy()->volume());
   const double span = std::max<double>(summary.high - summary.low, 1e-6);
   const double all = std::max<double>(summary.highest - summary.lowest, span);
-  const int decimals = std::max(1, decimals_for(span));  // as in the bar over a view
+  const int decimals = value_decimals(span);  // as in the bar over a view
   const double step = std::pow(10.0, -decimals_for(span));
   tent_->set_source(summary, unit);
   target_->set_decimals(decimals);
@@ -113,11 +113,8 @@ void SpeedControls::refresh() {
   alpha_->set_value(parameters.alpha);
 }
 
-void SpeedControls::change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture) {
-  if (!proxy()) return;
-  solver::Parameters parameters = proxy()->parameters();
-  apply(parameters);
-  proxy()->set_parameters(parameters, gesture);
+void SpeedControls::change(const engine::CaseProxy::ParameterChange& apply, std::uint64_t gesture) {
+  if (proxy()) proxy()->change_parameters(apply, gesture);
 }
 
 }  // namespace tidemark::ui

@@ -1,8 +1,7 @@
 // The controls of T, epsilon and alpha (paper section 6.1). T and epsilon are the tent's.
 #pragma once
 
-#include <functional>
-
+#include "engine/case_proxy.h"
 #include "ui/panels/case_widget.h"
 
 class QFormLayout;
@@ -27,7 +26,7 @@ class SpeedControls : public CaseWidget {
  private:
   void add_numbers(Form& form);
   void show_mark();
-  void change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture);
+  void change(const engine::CaseProxy::ParameterChange& apply, std::uint64_t gesture);
 
   QFormLayout* form_;
   SpeedPlot* tent_;

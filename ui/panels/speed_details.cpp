@@ -183,11 +183,8 @@ void SpeedDetails::refresh() {
     number->setEnabled(parameters.rescaling_term);
 }
 
-void SpeedDetails::change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture) {
-  if (!proxy()) return;
-  solver::Parameters parameters = proxy()->parameters();
-  apply(parameters);
-  proxy()->set_parameters(parameters, gesture);
+void SpeedDetails::change(const engine::CaseProxy::ParameterChange& apply, std::uint64_t gesture) {
+  if (proxy()) proxy()->change_parameters(apply, gesture);
 }
 
 }  // namespace tidemark::ui

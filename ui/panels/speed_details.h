@@ -2,8 +2,7 @@
 // numbers (paper sections 2.1, 4.2 and 6.1).
 #pragma once
 
-#include <functional>
-
+#include "engine/case_proxy.h"
 #include "ui/panels/case_widget.h"
 
 class QCheckBox;
@@ -29,7 +28,7 @@ class SpeedDetails : public CaseWidget {
   void add_scheme(Form& form);
   void add_band(Form& form);
   void add_rescaling(Form& form);
-  void change(const std::function<void(solver::Parameters&)>& apply, std::uint64_t gesture);
+  void change(const engine::CaseProxy::ParameterChange& apply, std::uint64_t gesture);
   [[nodiscard]] double rescaling_weight() const;  // also where the band decides
   [[nodiscard]] double band() const;              // also where the spacing decides
 

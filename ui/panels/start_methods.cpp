@@ -164,6 +164,9 @@ std::optional<Index3> ValueStartMethod::voxel() const {
 }
 
 QString ValueStartMethod::everywhere_text() const {
+  // The histogram is of the study as it was opened.
+  if (proxy()->state().smoothed_mm > 0.0)
+    return tr("Places the surface around the voxels from %1.").arg(range_text());
   const Volume& volume = proxy()->volume();
   const double count = count_between(proxy()->summary(), low_->value(), high_->value());
   const double share = 100.0 * count / static_cast<double>(volume.geometry.voxel_count());
@@ -174,7 +177,7 @@ QString ValueStartMethod::everywhere_text() const {
 
 QString ValueStartMethod::connected_text() const {
   if (!voxel()) return tr("The crosshair is outside the study.");
-  const double here = proxy()->volume().value(*voxel());
+  const double here = proxy()->source()->value(*voxel());
   if (here < low_->value() || here > high_->value()) {
     return tr("The value at the crosshair is not from %1.").arg(range_text());
   }
@@ -192,7 +195,7 @@ bool ValueStartMethod::can_start() const {
   if (!proxy() || low_->value() > high_->value()) return false;
   if (extent_ == Extent::everywhere) return true;
   if (!voxel()) return false;
-  const double here = proxy()->volume().value(*voxel());
+  const double here = proxy()->source()->value(*voxel());
   return here >= low_->value() && here <= high_->value();
 }
 
@@ -208,12 +211,13 @@ void ValueStartMethod::start(int levels) {
 }
 
 void ValueStartMethod::refresh() {
-  if (!here_) return;
-  const auto at = voxel();
-  here_->setText(at ? number_text(proxy()->volume().value(*at),
-                                  decimals_for(proxy()->summary().high - proxy()->summary().low),
-                                  value_unit(proxy()->volume()))
-                    : QStringLiteral("–"));
+  if (here_) {
+    const auto at = voxel();
+    here_->setText(at ? number_text(proxy()->source()->value(*at),
+                                    decimals_for(proxy()->summary().high - proxy()->summary().low),
+                                    value_unit(proxy()->volume()))
+                      : QStringLiteral("–"));
+  }
   emit changed();
 }
 

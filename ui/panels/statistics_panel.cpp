@@ -17,6 +17,14 @@
 #include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
+namespace {
+
+// A figure of the study's values.
+QString study_figure(const engine::CaseProxy& proxy, double value, const QString& unit = {}) {
+  return number_text(value, value_decimals(proxy.summary().high - proxy.summary().low), unit);
+}
+
+}  // namespace
 
 StatisticsPanel::StatisticsPanel(QWidget* parent) : Panel(tr("Open a study to measure in it."), parent) {
   add(make_surface());
@@ -101,8 +109,9 @@ void StatisticsPanel::show_surface(const std::vector<RegionRow>& rows) {
   volume_->setText(there ? number_text(rows.front().volume_ml, 2, tr("ml")) : kNothing);
   area_->setText(there ? number_text(*rows.front().area_mm2, 0, tr("mm²")) : kNothing);
   voxels_->setText(there ? count_text(rows.front().voxels) : kNothing);
-  mean_->setText(measured ? number_text(rows.front().values->mean, 1, unit) : kNothing);
-  deviation_->setText(measured ? number_text(rows.front().values->standard_deviation, 1, unit) : kNothing);
+  mean_->setText(measured ? study_figure(*proxy(), rows.front().values->mean, unit) : kNothing);
+  deviation_->setText(measured ? study_figure(*proxy(), rows.front().values->standard_deviation, unit)
+                               : kNothing);
 }
 
 void StatisticsPanel::show_labels(const std::vector<RegionRow>& rows) {
@@ -110,8 +119,8 @@ void StatisticsPanel::show_labels(const std::vector<RegionRow>& rows) {
   for (const RegionRow& row : rows) {
     if (row.area_mm2) continue;
     lines.push_back({row.name, number_text(row.volume_ml, 1),
-                     row.values ? number_text(row.values->mean, 1) : kNothing,
-                     row.values ? number_text(row.values->standard_deviation, 1) : kNothing});
+                     row.values ? study_figure(*proxy(), row.values->mean) : kNothing,
+                     row.values ? study_figure(*proxy(), row.values->standard_deviation) : kNothing});
   }
   labels_->fill(lines, labels_title_);
 }

@@ -41,9 +41,8 @@ WallControls::WallControls(QWidget* parent) : CaseWidget(parent) {
   clear_->setToolTip(tr("Takes all of them away; Undo brings them back."));
   connect(clear_, &QPushButton::clicked, this, [this] {
     if (!proxy()) return;
-    document::Drive drive = proxy()->drive();
-    drive.constraints = nullptr;
-    proxy()->set_drive(drive, engine::CaseProxy::new_gesture());
+    proxy()->change_drive([](document::Drive& drive) { drive.constraints = nullptr; },
+                          engine::CaseProxy::new_gesture());
   });
   row->addWidget(tool_);
   row->addWidget(clear_);

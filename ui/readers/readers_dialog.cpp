@@ -6,6 +6,7 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPointer>
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -87,6 +88,7 @@ ReadersDialog::ReadersDialog(CaseWindow& window)
   setAttribute(Qt::WA_DeleteOnClose);
   lay_out();
   connect(list_, &ReaderList::chosen_changed, this, [this] {
+    measuring_ = false;
     if (waiting_.isEmpty()) comparison_.cancel();  // of others than those
     show_regions();
     clear_results();
@@ -174,7 +176,10 @@ QPushButton* ReadersDialog::make_button(const QString& text, const QString& tip)
 
 void ReadersDialog::connect_comparison() {
   connect(&comparison_, &engine::JobRunner::progressed, work_, &WorkLine::set_progress);
-  connect(work_, &WorkLine::cancelled, &comparison_, &engine::ReaderComparison::cancel);
+  connect(work_, &WorkLine::cancelled, this, [this] {
+    if (std::exchange(measuring_, false)) return rest(tr("Cancelled."));
+    comparison_.cancel();
+  });
   connect(&comparison_, &engine::ReaderComparison::was_read, this, &ReadersDialog::take_file);
   connect(&comparison_, &engine::ReaderComparison::pair_compared, this,
           [this](std::size_t first, std::size_t second, const document::Comparison& comparison) {
@@ -232,22 +237,30 @@ void ReadersDialog::end_reading() {
   rest(std::exchange(problems_, {}).join(u'\n'));
 }
 
+// Right after an edit the case's state still has phi before it.
 void ReadersDialog::compare() {
+  clear_results();
+  work_->begin(tr("Comparing readers"));
+  measuring_ = true;
+  show_buttons();
+  proxy().measure([self = QPointer(this)] {
+    if (self && std::exchange(self->measuring_, false)) self->compare_measured();
+  });
+}
+
+void ReadersDialog::compare_measured() {
   const std::vector<ListedReader> chosen = list_->chosen();
   const engine::CaseState& state = proxy().state();
   engine::ReaderQuestion question{
       {proxy().volume().geometry, state.labels, state.label_voxels, state.phi}, {}, {}};
   if (region_->currentIndex() > 0) question.region = region_->currentText().toStdString();
-  clear_results();
   results_.region = question.region;
   results_.voxel_ml = question.of_case.geometry.voxel_volume_ml();
   for (const ListedReader& one : chosen) {
     question.readers.push_back(one.reader);
     results_.names.push_back(one.name.toStdString());
   }
-  work_->begin(tr("Comparing readers"));
   comparison_.compare(std::move(question));
-  show_buttons();
 }
 
 void ReadersDialog::take_pair(const ComparedPair& pair) {
@@ -309,12 +322,12 @@ void ReadersDialog::clear_results() {
 }
 
 void ReadersDialog::rest(const QString& said) {
-  if (!comparison_.busy()) work_->end(said);
+  if (!measuring_ && !comparison_.busy()) work_->end(said);
   show_buttons();
 }
 
 void ReadersDialog::show_buttons() {
-  const bool busy = comparison_.busy() || !waiting_.isEmpty();
+  const bool busy = measuring_ || comparison_.busy() || !waiting_.isEmpty();
   list_->setEnabled(!busy);
   add_->setEnabled(!busy);
   remove_->setEnabled(!busy && list_->can_remove_current());

@@ -44,6 +44,7 @@ class ReadersDialog : public QDialog {
   void take_file(std::shared_ptr<const document::FileRegions> file);
   void end_reading();
   void compare();
+  void compare_measured();
   void take_pair(const ComparedPair& pair);
   void take_estimate(std::shared_ptr<const imaging::TruthEstimate> estimate);
   void keep_estimate();
@@ -55,8 +56,9 @@ class ReadersDialog : public QDialog {
 
   CaseWindow& window_;
   engine::ReaderComparison comparison_;
-  QStringList waiting_;   // files; the first is being read
-  QStringList problems_;  // of files
+  bool measuring_ = false;  // the case, before the comparison
+  QStringList waiting_;     // files; the first is being read
+  QStringList problems_;    // of files
   ReaderResults results_;
   QString keeping_;  // the name of the label that the estimate is about to become
   ReaderList* list_;

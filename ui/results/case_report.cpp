@@ -115,8 +115,8 @@ QString values(const std::vector<Reported>& regions) {
   for (const Reported& region : regions) {
     for (const document::ImageValues& image : region.measures.images) {
       const imaging::InsideValues& inside = image.values;
-      const int decimals = inside.uptake ? 2 : 1;
-      const QString unit = QString::fromStdString(image.unit);
+      const int decimals = inside.uptake ? 2 : value_decimals(image.span);
+      const QString unit = text(image.unit);
       rows << QStringList{
           region.name, text(image.image),
           tr("%1 ± %2").arg(number_text(inside.mean, decimals),
@@ -207,7 +207,7 @@ Status write_report(const ReportSource& source, const document::SessionContents&
   const auto page = report_page(source, contents);
   if (!page) return pass_on(page);
   const QString title = tr("Segmentation report");
-  if (file.extension() == ".pdf") return write_pdf_file(*page, title, file);
+  if (is_pdf_name(file)) return write_pdf_file(*page, title, file);
   const QString whole = QStringLiteral(
                             "<!DOCTYPE html>\n<html><head><meta charset='utf-8'><title>%1</title>"
                             "<style>body{font-family:sans-serif;max-width:60em;margin:2em auto}"

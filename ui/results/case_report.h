@@ -33,7 +33,7 @@ struct ReportSource {
 // Fails as document::measure() does.
 Result<QString> report_page(const ReportSource& source, const document::SessionContents& contents);
 
-// By the suffix: .pdf, or .html that needs no other file. Fails as report_page() does, and
+// A PDF file by its suffix, else HTML that needs no other file. Fails as report_page() does, and
 // (ErrorKind::write).
 Status write_report(const ReportSource& source, const document::SessionContents& contents,
                     const std::filesystem::path& file);

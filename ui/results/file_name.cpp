@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/study_loader.h"
+#include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -43,10 +44,7 @@ QString file_name_of(const engine::LoadedStudy& study) {
 }
 
 bool is_of_study(const engine::LoadedStudy& study, const std::filesystem::path& file) {
-  const auto is_it = [&](const std::filesystem::path& other) {
-    std::error_code error;
-    return std::filesystem::equivalent(file, other, error);
-  };
+  const auto is_it = [&](const std::filesystem::path& other) { return is_same_file(file, other); };
   return is_it(study.origin.path) || std::any_of(study.dicom_files.begin(), study.dicom_files.end(), is_it);
 }
 

@@ -76,7 +76,10 @@ void ResultDialog::follow() {
 }
 
 void ResultDialog::start() {
-  if (busy_ || !confirm()) return;
+  if (!busy_) confirm([this] { take_case(); });
+}
+
+void ResultDialog::take_case() {
   busy_ = waiting_ = true;
   work_->begin(tr("Looking at the case"));
   follow();

@@ -3,6 +3,7 @@
 
 #include <QDialog>
 #include <QPushButton>
+#include <functional>
 #include <memory>
 
 #include "ui/main/case_window.h"
@@ -25,8 +26,8 @@ class ResultDialog : public QDialog {
   void build(bool with_choice, QWidget* target, const QString& note, const QString& verb, const QString& tip);
   // Whether all that is needed is filled in.
   [[nodiscard]] virtual bool ready() const { return true; }
-  // Asked at the click: may go on?
-  virtual bool confirm() { return true; }
+  // Asked at the click: calls `go_on` where it may go on, perhaps later.
+  virtual void confirm(std::function<void()> go_on) { go_on(); }
   virtual void begin(const Snapshot& snapshot) = 0;
   virtual void give_up() = 0;
 
@@ -39,6 +40,7 @@ class ResultDialog : public QDialog {
 
  private:
   void start();
+  void take_case();
 
   CaseWindow& window_;
   ResultChoice* choice_;

@@ -6,6 +6,7 @@
 #include <QHBoxLayout>
 #include <QMessageBox>
 #include <algorithm>
+#include <utility>
 
 #include "document/segment_meshes.h"
 #include "imaging/audit/event.h"
@@ -153,7 +154,8 @@ void WriteResultDialog::choose() {
   dialog->open();
 }
 
-bool WriteResultDialog::confirm() {
+// The question goes with its case, which may close while it is open.
+void WriteResultDialog::confirm(std::function<void()> go_on) {
   QString file = QDir(usual_folder()).absoluteFilePath(file_->text().trimmed());
   const QStringList endings = suffixes();
   const bool ends = std::any_of(endings.begin(), endings.end(), [&](const QString& ending) {
@@ -162,18 +164,23 @@ bool WriteResultDialog::confirm() {
   if (!ends) file += endings.first();
   file_->setText(file);
   if (is_of_study(proxy().study(), path_of(file))) {
-    rest(tr("%1 is a file of the study, which is never written to: choose another name.").arg(file));
-    return false;
+    return rest(tr("%1 is a file of the study, which is never written to: choose another name.").arg(file));
   }
   QStringList there = files();
   there.removeIf([](const QString& one) { return !QFileInfo::exists(one); });
-  if (there.isEmpty()) return true;
+  if (there.isEmpty()) return go_on();
   const QString question = there.size() == 1 ? tr("%1 exists. Replace it?").arg(there.first())
                                              : tr("%1 and %n more exist. Replace them?", nullptr,
                                                   static_cast<int>(there.size() - 1))
                                                    .arg(there.first());
-  return QMessageBox::question(this, windowTitle(), question, QMessageBox::Yes | QMessageBox::No,
-                               QMessageBox::No) == QMessageBox::Yes;
+  auto* box = new QMessageBox(QMessageBox::Question, windowTitle(), question,
+                              QMessageBox::Yes | QMessageBox::No, this);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setDefaultButton(QMessageBox::No);
+  connect(box, &QMessageBox::finished, this, [go_on = std::move(go_on)](int answer) {
+    if (answer == QMessageBox::Yes) go_on();
+  });
+  box->open();
 }
 
 void WriteResultDialog::begin(const Snapshot& snapshot) {

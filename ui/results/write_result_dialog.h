@@ -20,7 +20,7 @@ class WriteResultDialog : public ResultDialog {
 
  protected:
   [[nodiscard]] bool ready() const override { return !file_->text().trimmed().isEmpty(); }
-  bool confirm() override;
+  void confirm(std::function<void()> go_on) override;
   void begin(const Snapshot& snapshot) override;
   void give_up() override { jobs_.cancel(); }
 

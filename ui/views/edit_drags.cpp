@@ -58,10 +58,12 @@ void StrokeDrag::dab(glm::dvec3 at_mm) {
 
 void StrokeDrag::release() {
   if (brush_ != solver::Brush::erase || !display().settings().wall_behind_eraser) return;
-  document::Drive drive = proxy().drive();
-  drive.constraints =
-      with_spheres(drive.constraints.get(), proxy().volume().geometry, spheres_, solver::Constraint::wall);
-  proxy().set_drive(drive, gesture_);
+  proxy().change_drive(
+      [geometry = proxy().volume().geometry, spheres = spheres_](document::Drive& drive) {
+        drive.constraints =
+            with_spheres(drive.constraints.get(), geometry, spheres, solver::Constraint::wall);
+      },
+      gesture_);
 }
 
 void StrokeDrag::move(const Pointer& pointer) {

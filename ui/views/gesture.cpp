@@ -4,9 +4,12 @@
 
 namespace tidemark::ui {
 
+bool Gesture::Ground::is_in_slice_of(const Ground& other) const {
+  return slab && other.slab ? slab->is_same_as(*other.slab) : !slab && !other.slab;
+}
+
 bool Gesture::Ground::is_same_as(const Ground& other) const {
-  const bool same_slice = slab && other.slab ? slab->is_same_as(*other.slab) : !slab && !other.slab;
-  return same_slice && tool == other.tool && way == other.way;
+  return is_in_slice_of(other) && tool == other.tool && way == other.way;
 }
 
 void Gesture::begin(std::unique_ptr<Drag> drag, Qt::MouseButton button, Ground ground) {
@@ -17,6 +20,7 @@ void Gesture::begin(std::unique_ptr<Drag> drag, Qt::MouseButton button, Ground g
 }
 
 void Gesture::keep_to(const Ground& ground) {
+  if (is_held() && drag_ && !ground_.is_in_slice_of(ground)) lift(true);
   if (waits_for_click() && !ground_.is_same_as(ground)) stop();
 }
 
@@ -30,8 +34,13 @@ void Gesture::lift(bool counts) {
   button_ = Qt::NoButton;
   if (!drag_ || drag_->lifted()) return;
   ended_by_click_ = drag_->is_of_clicks();
-  if (counts) drag_->release();
-  stop();
+  end(counts);
+}
+
+// By its release the display may change, of which keep_to() hears.
+void Gesture::end(bool counts) {
+  const std::unique_ptr<Drag> ended = std::move(drag_);
+  if (counts) ended->release();
 }
 
 bool Gesture::takes(int key) const {
@@ -42,8 +51,7 @@ bool Gesture::takes(int key) const {
 
 void Gesture::press_key(int key) {
   if (!takes(key)) return;
-  if (key != Qt::Key_Escape) drag_->release();
-  stop();
+  end(key != Qt::Key_Escape);
 }
 
 }  // namespace tidemark::ui

@@ -15,6 +15,7 @@ class Gesture {
     engine::Tool tool{};
     engine::LabelWay way{};
     std::optional<engine::SliceSlab> slab;
+    [[nodiscard]] bool is_in_slice_of(const Ground& other) const;
     [[nodiscard]] bool is_same_as(const Ground& other) const;
   };
 
@@ -23,7 +24,7 @@ class Gesture {
   // The button is still down and does something else from now on.
   void replace(std::unique_ptr<Drag> drag) { drag_ = std::move(drag); }
   void stop() { drag_.reset(); }
-  // One of clicks that began elsewhere is given up.
+  // One that is held ends with its slice. One of clicks that began elsewhere is given up.
   void keep_to(const Ground& ground);
   // A further click; another button than the first has none.
   void press(const Pointer& pointer);
@@ -41,6 +42,8 @@ class Gesture {
   [[nodiscard]] bool take_ended_by_click() { return std::exchange(ended_by_click_, false); }
 
  private:
+  void end(bool counts);
+
   std::unique_ptr<Drag> drag_;
   Qt::MouseButton button_ = Qt::NoButton;
   Qt::MouseButton first_button_ = Qt::NoButton;  // of the drag

@@ -57,10 +57,8 @@ void LabelStroke::show(Region region) {
 
 void LabelStroke::release() {
   if (region_.empty()) return;
-  const std::uint8_t painted = label();
-  if (painted == 0 && what_ == document::Labels::Stroke::erases) return;  // there is nothing to take away
   const QString name = tr("Label %1").arg(proxy().state().labels.size() + 1);  // of a new one
-  proxy().brush_label({painted, name.toStdString(), region_}, what_, display().label_brush().take);
+  proxy().brush_label({label(), name.toStdString(), region_}, what_, display().label_brush().take);
 }
 
 QString LabelStroke::text() const {

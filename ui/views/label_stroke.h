@@ -28,7 +28,7 @@ class LabelStroke : public Drag {
   [[nodiscard]] Region region_of(const std::vector<std::int64_t>& voxels) const;
 
  private:
-  [[nodiscard]] std::uint8_t label() const;  // 0: a new one, because there is none
+  [[nodiscard]] std::uint8_t label() const;  // 0: there is none yet
   [[nodiscard]] Region with_values(const Region& region) const;
 
   document::Labels::Stroke what_;

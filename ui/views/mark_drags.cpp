@@ -67,7 +67,10 @@ void ExampleDrag::move(const Pointer& pointer) {
 }
 
 void ExampleDrag::release() {
-  proxy().take_stroke(taught(proxy().drive(), strokes_), voxels_, display().settings().stroke_steps);
+  const auto teach = [voxels = voxels_, mark = mark_](document::Drive& drive) {
+    drive = taught(drive, engine::painted(drive.strokes.get(), voxels, mark));
+  };
+  proxy().take_stroke(teach, voxels_, display().settings().stroke_steps);
 }
 
 QString ExampleDrag::text() const {
@@ -88,7 +91,8 @@ ConstraintDrag::ConstraintDrag(DragView view, const Pointer& pressed)
       what_(constraint_of(pressed)),
       radius_mm_(display().settings().brush_mm),
       last_mm_(*pressed.patient_mm),
-      constraints_(proxy().drive().constraints) {
+      before_(proxy().drive().constraints),
+      constraints_(before_) {
   dab(last_mm_, last_mm_);
 }
 
@@ -101,6 +105,7 @@ void ConstraintDrag::dab(glm::dvec3 from_mm, glm::dvec3 to_mm) {
   for (const glm::dvec3& place : way_between(from_mm, to_mm, 0.4 * radius_mm_))
     spheres.push_back({place, radius_mm_});
   constraints_ = with_spheres(constraints_.get(), proxy().volume().geometry, spheres, what_);
+  spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
   display().set_drawn_marks(engine::DrawnMarks{proxy().drive().strokes, constraints_});
 }
 
@@ -111,9 +116,12 @@ void ConstraintDrag::move(const Pointer& pointer) {
 }
 
 void ConstraintDrag::release() {
-  document::Drive drive = proxy().drive();
-  drive.constraints = constraints_;
-  proxy().set_drive(drive, engine::CaseProxy::new_gesture());
+  const auto hold = [before = before_, after = constraints_, spheres = spheres_, what = what_,
+                     geometry = proxy().volume().geometry](document::Drive& drive) {
+    const bool as_drawn = drive.constraints == before;
+    drive.constraints = as_drawn ? after : with_spheres(drive.constraints.get(), geometry, spheres, what);
+  };
+  proxy().change_drive(hold, engine::CaseProxy::new_gesture());
 }
 
 document::Drive taught(document::Drive drive, std::shared_ptr<const solver::Strokes> strokes) {

@@ -42,7 +42,9 @@ class ConstraintDrag : public Drag {
   solver::Constraint what_;
   double radius_mm_;
   glm::dvec3 last_mm_;
-  std::shared_ptr<const solver::Constraints> constraints_;
+  std::vector<solver::Sphere> spheres_;
+  std::shared_ptr<const solver::Constraints> before_;
+  std::shared_ptr<const solver::Constraints> constraints_;  // with the spheres
 };
 
 // `drive` with the strokes. With the first ones of both kinds they drive the surface from then on.

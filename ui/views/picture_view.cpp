@@ -334,7 +334,16 @@ void PictureView::mousePressEvent(QMouseEvent* event) {
   replace_drag(begin_drag(pointer_at(*event)));
 }
 
+void PictureView::lift(bool counts) {
+  may_be_click_ = false;
+  gesture_.lift(counts);
+  button_lifted();
+  paint_again();
+}
+
 void PictureView::mouseMoveEvent(QMouseEvent* event) {
+  // A dialog that opens under a held button takes its release.
+  if (gesture_.is_held() && !event->buttons().testFlag(gesture_.button())) lift(true);
   mouse_ = event->position();
   if (!gesture_.drag()) setCursor(cursor_at(mouse_));
   const Pointer pointer = pointer_at(*event);
@@ -357,9 +366,8 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
 
 void PictureView::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != gesture_.button()) return;
-  const bool clicked = std::exchange(may_be_click_, false);
-  gesture_.lift(!clicked);
-  paint_again();
+  const bool clicked = may_be_click_;
+  lift(!clicked);
   if (clicked) ask_for_menu(event->position());
 }
 
@@ -417,7 +425,7 @@ void PictureView::wheelEvent(QWheelEvent* event) {
   wheel_remainder_ -= clicks * kWheelClick;
   event->accept();
   if (clicks == 0) return;
-  if (gesture_.waits_for_click() && !event->modifiers().testFlag(Qt::ControlModifier))
+  if (gesture_.drag() && slab() && !event->modifiers().testFlag(Qt::ControlModifier))
     return;  // its slice stays
   if (event->modifiers().testFlag(Qt::ControlModifier)) {
     zoom(std::pow(kZoomStep, clicks), event->position());

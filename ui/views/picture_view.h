@@ -98,6 +98,8 @@ class PictureView : public QWidget {
   // In place of what the button that is down has begun.
   void replace_drag(std::unique_ptr<Drag> drag);
   [[nodiscard]] bool pressed() const { return gesture_.is_held(); }
+  // The button that was down is up.
+  virtual void button_lifted() {}
 
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
@@ -120,6 +122,7 @@ class PictureView : public QWidget {
   void follow_forces();
   void explain_at(QPointF position);
   void paint_balance(QPainter& painter) const;
+  void lift(bool counts);  // see Gesture
   void ask_for_menu(QPointF position);
   void ask_for_menu_by_key();
   void paint_all(QPainter& painter);

@@ -20,11 +20,17 @@ double range_of(const engine::CaseProxy& proxy, const engine::ValueProbe::Spread
   return std::max(values.deviation, engine::least_probed_range(summary.low, summary.high));
 }
 
+// Of the values that are probed.
+int probed_decimals(const engine::CaseProxy& proxy) {
+  return value_decimals(proxy.summary().high - proxy.summary().low);
+}
+
 void set_speed(engine::CaseProxy& proxy, const engine::ValueProbe::Spread& values, std::uint64_t gesture) {
-  solver::Parameters parameters = proxy.parameters();
-  parameters.target = values.mean;
-  parameters.range = range_of(proxy, values);
-  proxy.set_parameters(parameters, gesture);
+  const auto set = [target = values.mean, range = range_of(proxy, values)](solver::Parameters& parameters) {
+    parameters.target = target;
+    parameters.range = range;
+  };
+  proxy.change_parameters(set, gesture);
 }
 
 }  // namespace
@@ -65,8 +71,9 @@ void probe_speed_at(engine::CaseProxy& proxy, glm::dvec3 place_mm) {
 
 QString SpeedProbeDrag::text() const {
   const engine::ValueProbe::Spread values = probe().values();
+  const int decimals = probed_decimals(proxy());
   return tr("T %1   ε %2   (%3 voxels)", nullptr, form_of(probe().count()))
-      .arg(number_text(values.mean, 1), number_text(range_of(proxy(), values), 1),
+      .arg(number_text(values.mean, decimals), number_text(range_of(proxy(), values), decimals),
            count_text(probe().count()));
 }
 
@@ -102,9 +109,11 @@ void TransferProbeDrag::set() {
 QString TransferProbeDrag::text() const {
   const engine::ValueProbe::Spread values = probe().values();
   const engine::ValueProbe::Spread gradients = probe().gradients();
+  const int decimals = probed_decimals(proxy());
+  const int of_gradients = value_decimals(proxy().summary().steepest);
   return tr("value %1 ± %2   gradient %3 ± %4")
-      .arg(number_text(values.mean, 1), number_text(values.deviation, 1), number_text(gradients.mean, 1),
-           number_text(gradients.deviation, 1));
+      .arg(number_text(values.mean, decimals), number_text(values.deviation, decimals),
+           number_text(gradients.mean, of_gradients), number_text(gradients.deviation, of_gradients));
 }
 
 }  // namespace tidemark::ui

@@ -289,7 +289,7 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
   if (settings().profile)
     paint_profile(painter, *settings().profile, on_screen, 0.5 * place().thickness_mm + 1e-6);
-  paint_orientation(painter, size(), o.right, o.up, proxy().study().oriented);
+  paint_orientation(painter, size(), o.right, o.up, proxy().volume().geometry.oriented);
   paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
   paint_corners(painter);
   paint_legend(painter);
@@ -369,7 +369,7 @@ void SliceViewWidget::follow_marks() {
 
 void SliceViewWidget::paint_corners(QPainter& painter) const {
   const engine::DisplaySettings& s = settings();
-  const bool sides_are_known = has_sides(radiological()) && proxy().study().oriented;
+  const bool sides_are_known = has_sides(radiological()) && proxy().volume().geometry.oriented;
   const QString convention = s.radiological ? tr("radiological") : tr("neurological");
   paint_study(painter, sides_are_known ? convention : QString());
   const Place now = place();
@@ -377,7 +377,9 @@ void SliceViewWidget::paint_corners(QPainter& painter) const {
   lines << tr("%1 / %2   %3 mm").arg(now.slice).arg(now.slices).arg(general_text(now.thickness_mm, 3));
   if (const QString number = acquired_number(); !number.isEmpty()) lines << number;
   if (content_ == renderer::SliceContent::source) {
-    lines << tr("W %1  L %2").arg(number_text(s.window.width, 0), number_text(s.window.centre, 0));
+    const int decimals = decimals_for(proxy().summary().high - proxy().summary().low);
+    lines << tr("W %1  L %2")
+                 .arg(number_text(s.window.width, decimals), number_text(s.window.centre, decimals));
   }
   if (content_ == renderer::SliceContent::speed) lines << term_name(s.speed_term);
   if (const auto compared = proxy().comparison().state()) {

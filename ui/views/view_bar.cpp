@@ -99,10 +99,10 @@ void ViewBar::add_choice(QWidget* choice) {
 
 // The other parameters keep all their digits, of which the bar shows a few.
 void ViewBar::change(double solver::Parameters::*parameter, double value) {
-  solver::Parameters parameters = proxy_.parameters();
-  parameters.*parameter = value;
-  parameters.range = std::max(parameters.range, solver::kMinimumRange);
-  proxy_.set_parameters(parameters);
+  proxy_.change_parameters([parameter, value](solver::Parameters& parameters) {
+    parameters.*parameter = value;
+    parameters.range = std::max(parameters.range, solver::kMinimumRange);
+  });
 }
 
 void ViewBar::follow_state() {

@@ -210,12 +210,9 @@ void VolumeViewWidget::mouseMoveEvent(QMouseEvent* event) {
   if (settings().clip_on) paint_again();  // the grip under the mouse
 }
 
-void VolumeViewWidget::mouseReleaseEvent(QMouseEvent* event) {
-  PictureView::mouseReleaseEvent(event);
-  if (!pressed()) {
-    grip_mm_.reset();
-    ++press_number_;
-  }
+void VolumeViewWidget::button_lifted() {
+  grip_mm_.reset();
+  ++press_number_;
 }
 
 std::unique_ptr<Drag> VolumeViewWidget::navigation_drag(const Pointer& pressed) {
@@ -277,7 +274,7 @@ void VolumeViewWidget::keyPressEvent(QKeyEvent* event) {
 void VolumeViewWidget::paint_overlay(QPainter& painter) {
   const renderer::Camera& camera = settings().camera;
   if (settings().volume_box) paint_volume_box(painter, proxy().volume().geometry, screen());
-  const bool is_oriented = proxy().study().oriented;
+  const bool is_oriented = proxy().volume().geometry.oriented;
   if (settings().orientation_cube && is_oriented) paint_orientation_cube(painter, size(), camera);
   paint_orientation(painter, size(), camera.right(), camera.up(), is_oriented);
   paint_scale_bar(painter, size(), mm_per_pixel());

@@ -40,7 +40,7 @@ class VolumeViewWidget : public PictureView {
   void showEvent(QShowEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
-  void mouseReleaseEvent(QMouseEvent* event) override;
+  void button_lifted() override;
 
  private:
   [[nodiscard]] VolumeScreen screen() const;

@@ -10,6 +10,10 @@ int decimals_for(double span) {
   return std::clamp(static_cast<int>(std::ceil(2.5 - std::log10(span))), 0, 6);
 }
 
+int value_decimals(double span) {
+  return std::max(1, decimals_for(span));
+}
+
 double rounded(double value, int decimals) {
   const double scale = std::pow(10.0, decimals);
   return std::round(value * scale) / scale + 0.0;  // -0 + 0 is 0

@@ -11,6 +11,8 @@ inline const QString kNothing = QStringLiteral("–");
 
 // Digits behind the point, so that a span has about a thousand steps: 0 for HU, 3 for shares of 1.
 int decimals_for(double span);
+// The same for figures of a study's values, such as a mean or T: one at least.
+int value_decimals(double span);
 double rounded(double value, int decimals);  // never -0
 
 // The user's, except that digits are not grouped: what is read can be typed (NumberBox).

@@ -18,9 +18,17 @@ inline std::filesystem::path path_of(const QString& text) {
 }
 
 // Whether both are there and are one file, by whatever name.
-inline bool is_same_file(const QString& a, const QString& b) {
+inline bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code none;
-  return std::filesystem::equivalent(path_of(a), path_of(b), none);
+  return std::filesystem::equivalent(a, b, none);
+}
+
+// Whether they are one file once both are written, though none may be there yet.
+inline bool is_same_place(const QString& a, const QString& b) {
+  const std::filesystem::path one = path_of(a);
+  const std::filesystem::path other = path_of(b);
+  return is_same_file(one, other) ||
+         (one.filename() == other.filename() && is_same_file(one.parent_path(), other.parent_path()));
 }
 
 }  // namespace tidemark::ui

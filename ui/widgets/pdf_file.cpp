@@ -1,5 +1,6 @@
 #include "ui/widgets/pdf_file.h"
 
+#include <QBuffer>
 #include <QPdfWriter>
 #include <QTextDocument>
 
@@ -8,13 +9,18 @@
 
 namespace tidemark::ui {
 
+bool is_pdf_name(const std::filesystem::path& file) {
+  return text_of(file.extension()).compare(QLatin1String(".pdf"), Qt::CaseInsensitive) == 0;
+}
+
+// By way of memory: a QPdfWriter tells of no write that fails.
 Status write_pdf_file(const QString& html, const QString& title, const std::filesystem::path& file) {
   constexpr int kResolution = 300;  // dots per inch
   constexpr double kMargin = 18.0;  // mm
-  auto target = AtomicFile::create(file);
-  if (!target) return pass_on(target);
+  QBuffer pages;
+  pages.open(QIODevice::WriteOnly);
   {
-    QPdfWriter writer(text_of(target->temporary_path()));
+    QPdfWriter writer(&pages);
     writer.setResolution(kResolution);
     writer.setPageSize(QPageSize(QPageSize::A4));
     writer.setPageMargins(QMarginsF(kMargin, kMargin, kMargin, kMargin), QPageLayout::Millimeter);
@@ -24,11 +30,7 @@ Status write_pdf_file(const QString& html, const QString& title, const std::file
     document.setHtml(html);
     document.print(&writer);
   }
-  std::error_code error;
-  if (std::filesystem::file_size(target->temporary_path(), error) == 0 || error) {
-    return fail(ErrorKind::write, "{}: cannot be written", file.string());
-  }
-  return target->commit();
+  return write_file(file, pages.data().toStdString());
 }
 
 }  // namespace tidemark::ui

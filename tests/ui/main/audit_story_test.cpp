@@ -4,13 +4,19 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <algorithm>
+#include <chrono>
 #include <mutex>
+#include <optional>
+#include <thread>
 
+#include "app/desktop/audit.h"
+#include "core/atomic_file.h"
 #include "imaging/audit/event.h"
 #include "tests/imaging/dicom/series_files.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/results_desktop.h"
 #include "ui/main/case_exports.h"
+#include "ui/main/case_files.h"
 #include "ui/results/write_result_dialog.h"
 
 namespace tidemark::test::audit_story_test {
@@ -66,6 +72,7 @@ class AuditStoryTest : public QObject, private ResultsDesktop {
     imaging::set_audit_sink(nullptr);
   }
   void each_file_is_of_the_case_that_it_was_written_of();
+  void what_is_being_written_at_the_end_is_audited();
 
  private:
   std::shared_ptr<Recorder> recorder_;
@@ -111,6 +118,24 @@ void AuditStoryTest::each_file_is_of_the_case_that_it_was_written_of() {
   QTest::mouseClick(button(*dialog, "Write"), Qt::LeftButton);
   QVERIFY(Desktop::wait_for([&] { return dialog.isNull(); }, kPatience));
   QVERIFY(recorder_->all(Kind::exported).contains("P2 two.dcm"));
+}
+
+void AuditStoryTest::what_is_being_written_at_the_end_is_audited() {
+  const Variable state("XDG_STATE_HOME", path("state").toUtf8());
+  const fs::path configuration = folder_ / "config" / "tidemark" / "audit.json";
+  fs::create_directories(configuration.parent_path());
+  QVERIFY(write_file(configuration, R"({"file": "audit.log"})"));
+  std::optional<desktop::Audit> audit(std::in_place, [](const Error&) {});
+  QCOMPARE(failure(audit->begin()), QString());
+  desktop_->window().files().write(*window_, path("slow.txt"), [file = folder_ / "slow.txt"] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    return write_file(file, "whole");
+  });
+  audit.reset();
+  fs::remove(configuration);
+  const QByteArray log = bytes_of(configuration.parent_path() / "audit.log");
+  QVERIFY2(log.contains("slow.txt"), log.constData());
+  QCOMPARE(bytes_of(folder_ / "slow.txt"), QByteArray("whole"));
 }
 
 TIDEMARK_TEST(AuditStoryTest)

@@ -99,6 +99,8 @@ class CohortStoryTest : public QObject {
   void a_surface_is_corrected();
   void nothing_is_said_of_a_case_that_is_not_seen();
   void a_changed_surface_is_not_left_without_a_question();
+  void a_second_correction_is_not_left_without_a_question();
+  void what_the_cohort_does_not_keep_stays_open();
   void it_stays_open_when_the_language_changes();
   void a_folder_that_is_no_cohort_is_refused();
 
@@ -312,6 +314,57 @@ void CohortStoryTest::a_changed_surface_is_not_left_without_a_question() {
   click_row(desktop, row_of(desktop, "anna"), true);
   QVERIFY(opens(desktop, "anna"));
   QVERIFY(!balls_->status("clara").corrected);
+}
+
+// In place of the first one, which was taken back: with as many steps and edits.
+void CohortStoryTest::a_second_correction_is_not_left_without_a_question() {
+  Desktop desktop(story_executor(), {1382, 858});
+  desktop.window().open(balls_->path());
+  QVERIFY(Desktop::wait_for([&] { return panel(desktop) != nullptr; }));
+  click_row(desktop, row_of(desktop, "anna"), true);
+  QVERIFY(opens(desktop, "anna"));
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  QVERIFY(axial);
+  desktop.press(Qt::Key_S);
+  const glm::dvec3 middle = desktop.proxy().display().settings().cursor_mm;
+  const auto add_sphere = [&](double x) {
+    const glm::dvec3 place = middle + glm::dvec3(x, 0.0, 0.0);
+    Desktop::drag(*axial, {place, place + glm::dvec3(5.0, 0.0, 0.0)});
+    desktop.wait_until_idle();
+  };
+  const auto is_correction = [&] { return enabled(desktop, in_story_language("Accept the correction")); };
+  add_sphere(26.0);
+  QVERIFY(Desktop::wait_for(is_correction));
+  desktop.press(Qt::Key_A, Qt::ShiftModifier);
+  QVERIFY(Desktop::wait_for(
+      [&] { return !desktop.state().modified && enabled(desktop, in_story_language("&Accept the case")); }));
+  QVERIFY(balls_->status("anna").corrected);
+
+  desktop.press(Qt::Key_Z, Qt::ControlModifier);
+  desktop.wait_until_idle();
+  add_sphere(-26.0);
+  QVERIFY(Desktop::wait_for(is_correction));
+  Desktop::answer(QMessageBox::Cancel);
+  click_row(desktop, row_of(desktop, "berta"), true);
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.window().cases().size(), 1);
+  QCOMPARE(desktop.proxy().origin().path.stem().stem().string(), std::string("anna"));
+}
+
+void CohortStoryTest::what_the_cohort_does_not_keep_stays_open() {
+  Desktop desktop(story_executor(), {1382, 858});
+  desktop.window().open(balls_->path());
+  QVERIFY(Desktop::wait_for([&] { return panel(desktop) != nullptr; }));
+  click_row(desktop, row_of(desktop, "clara"), true);
+  QVERIFY(opens(desktop, "clara"));
+  ui::CaseWindow* const clara = desktop.window().active_case();
+  clara->proxy().display().change([](engine::DisplaySettings& settings) {
+    settings.measurements = {{engine::Measurement::Kind::distance, {glm::dvec3(0.0), glm::dvec3(5.0)}}};
+  });
+  QVERIFY(enabled(desktop, in_story_language("&Accept the case")));  // the surface is as it was
+  click_row(desktop, row_of(desktop, "berta"), true);
+  QVERIFY(opens(desktop, "berta"));
+  QVERIFY(desktop.window().cases().contains(clara));
 }
 
 void CohortStoryTest::it_stays_open_when_the_language_changes() {

@@ -54,6 +54,10 @@ class Desktop {
   // Opens and waits until the first pictures are there.
   ui::CaseWindow* open_phantom(const QString& kind);
   ui::CaseWindow* open(const QString& path);
+  // Saves the active case by keys as that file. False where it was not saved in time.
+  [[nodiscard]] bool save_session(const QString& file);
+  // Closes the only case, and asks nothing.
+  void close_case();
   // A view of the active case by its title; the test fails if it is not there.
   template <class View>
   View* view(const QString& title = {}) {
@@ -83,8 +87,8 @@ class Desktop {
   static void choose_in(const QWidget& panel, const QString& list, const QString& entry);
   // Types a number into the box of that name, which is seen, and waits.
   void type_into(const QString& box, const QString& number);
-  // Presses that button of the next question.
-  static void answer(QMessageBox::StandardButton button);
+  // Presses that button of the next question. The result becomes true then.
+  static std::shared_ptr<const bool> answer(QMessageBox::StandardButton button);
 
   // The active case's surface begins with a ball of that radius where the phantom's seed is.
   void begin(double radius_mm);

@@ -59,6 +59,7 @@ class FinishLabelsStoryTest : public QObject {
   void a_preview_follows_the_locks_of_labels();
   void a_preview_follows_the_cross_and_the_clip_plane();
   void each_tool_has_its_amount_after_any_other();
+  void what_is_applied_is_the_amount_that_was_typed();
   void a_tool_waits_for_a_surface_that_moves();
   void each_case_keeps_its_chosen_label();
 
@@ -418,6 +419,34 @@ void FinishLabelsStoryTest::each_tool_has_its_amount_after_any_other() {
         [&] { return !apply->visibleRegion().isEmpty(); }));  // and not below the panel's end
     Desktop::choose_in(panel, "Tool", "None");
   }
+}
+
+// The press on the button ends the typing.
+void FinishLabelsStoryTest::what_is_applied_is_the_amount_that_was_typed() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  ui::LabelsPanel& panel = *shown_panel(desktop);
+  make_label(desktop, panel);
+  const Region before = region(desktop, 1);
+  Desktop::choose_in(panel, "Tool", "Grow");
+  wait_for_preview(desktop, panel);
+  desktop.window().activateWindow();
+  QVERIFY(QTest::qWaitForWindowActive(&desktop.window()));
+  auto* box = seen<ui::NumberBox>(panel, "Amount");
+  QTest::mouseClick(box, Qt::LeftButton);
+  QVERIFY(box->hasFocus());
+  box->selectAll();
+  QTest::keyClicks(box, "5");
+  auto* apply = seen<QAbstractButton>(panel, "Apply to labels");
+  QVERIFY(apply->isEnabled());
+  QTest::mouseClick(apply, Qt::LeftButton, {}, {8, apply->height() / 2});
+  QVERIFY(!apply->isEnabled());
+  QCOMPARE(box->value(), 5.0);
+  desktop.wait_until_idle();
+  QVERIFY(region(desktop, 1) == before);
+  wait_for_preview(desktop, panel);
+  click(desktop, panel, "Apply to labels");
+  QVERIFY(region(desktop, 1) == imaging::grown(before, desktop.proxy().volume().geometry, 5.0).value());
 }
 
 void FinishLabelsStoryTest::a_tool_waits_for_a_surface_that_moves() {

@@ -20,6 +20,7 @@
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/session_reader.h"
+#include "ui/panels/image_controls.h"
 #include "ui/panels/joint_plot.h"
 
 namespace tidemark::test::image_examples_story_test {
@@ -29,6 +30,7 @@ class ImageExamplesStoryTest : public QObject {
 
  private slots:
   void two_images_teach_are_replayed_and_come_back();
+  void images_keep_their_looks_though_the_first_is_not_used();
   void a_case_from_a_session_knows_its_frame_of_reference();
 
  private:
@@ -48,6 +50,19 @@ class ImageExamplesStoryTest : public QObject {
   [[nodiscard]] bool is_told(const QString& text) const;
   const std::vector<engine::ShownImage>& images() { return desktop_->proxy().display().settings().images; }
   const document::Drive& drive() { return desktop_->proxy().drive(); }
+  // Their names, colours, and whether they are used, in their order; behind them those that drive the
+  // surface.
+  QStringList looks() {
+    QStringList all;
+    for (const engine::ShownImage& shown : images()) {
+      all << QStringLiteral("%1, %2, %3")
+                 .arg(QString::fromStdString(shown.image->name))
+                 .arg(static_cast<int>(shown.colours))
+                 .arg(shown.used ? "used" : "not used");
+    }
+    for (const auto& image : drive().images) all << QString::fromStdString(image->name);
+    return all;
+  }
   bool is_driven() {
     return Desktop::wait_for([&] { return desktop_->state().speed && !desktop_->state().speed_waits; },
                              kPatience);
@@ -67,8 +82,9 @@ class ImageExamplesStoryTest : public QObject {
   glm::dvec3 middle_{24.0, 24.0, 24.0};
 };
 
-// Nothing is to be seen in the first but noise; the second, on coarser voxels, has a ball.
+// Nothing is to be seen in the first but noise; the others, on coarser voxels, have a ball.
 void ImageExamplesStoryTest::make_images() {
+  truth_ = {};
   std::uint32_t random = 11;
   const auto noise = [&random] {
     random = random * 1664525U + 1013904223U;
@@ -91,6 +107,7 @@ void ImageExamplesStoryTest::make_images() {
   };
   make("noise.nrrd", Index3(48), 1.0, 0.0, &truth_);
   make("second.nrrd", Index3(33), 1.5, 200.0, nullptr);
+  make("third.nrrd", Index3(33), 1.5, 150.0, nullptr);
 }
 
 void ImageExamplesStoryTest::add_image(const QString& file) {
@@ -248,6 +265,48 @@ void ImageExamplesStoryTest::two_images_teach_are_replayed_and_come_back() {
   QVERIFY(is_driven());
   QVERIFY(!desktop_->state().modified);
   reopen_without_the_image();
+}
+
+void ImageExamplesStoryTest::images_keep_their_looks_though_the_first_is_not_used() {
+  make_images();
+  desktop_ = std::make_unique<Desktop>(solver::ExecutorKind::host, QSize(1382, 858));
+  QVERIFY(desktop_->open(path("noise.nrrd")));
+  add_image(path("second.nrrd"));
+  QVERIFY(Desktop::wait_for([&] { return images().size() == 1; }, kPatience));
+  desktop_->proxy().display().change([&](engine::DisplaySettings& s) { s.cursor_mm = middle_; });
+  desktop_->wait_until_idle();
+  paint_examples();
+  desktop_->window().panels().show("display");
+  desktop_->wait_until_idle();
+  auto* used = named<QCheckBox>("Used by the speed function");
+  QVERIFY(used);
+  QTest::mouseClick(used, Qt::LeftButton, {}, {8, used->height() / 2});
+  desktop_->wait_until_idle();
+  auto* controls = desktop_->window().findChild<ui::ImageControls*>();
+  QVERIFY(controls);
+  Desktop::choose_in(*controls, "Colours", "Cool");
+  add_image(path("third.nrrd"));
+  const QStringList wanted{"second.nrrd, 3, not used", "third.nrrd, 2, used", "third.nrrd"};
+  Desktop::wait_for([&] { return looks() == wanted; }, kPatience);
+  QCOMPARE(looks(), wanted);
+  QVERIFY(is_driven());
+
+  desktop_->window().active_case()->session_file = path("two.tidemark");
+  desktop_->press(Qt::Key_S, Qt::ControlModifier);
+  QVERIFY(Desktop::wait_for([&] { return !desktop_->state().modified; }, kPatience));
+  reopen();
+  QVERIFY(is_driven());
+  QCOMPARE(looks(), wanted);
+  QVERIFY(!desktop_->state().modified);
+
+  desktop_->window().actions().duplicate_case->trigger();
+  const auto is_there = [&] {
+    const QList<ui::CaseWindow*> all = desktop_->window().cases();
+    return all.size() == 2 && desktop_->window().active_case() == all.back();
+  };
+  QVERIFY(Desktop::wait_for(is_there, kPatience));
+  desktop_->wait_until_idle();
+  QCOMPARE(looks(), wanted);
 }
 
 void ImageExamplesStoryTest::a_case_from_a_session_knows_its_frame_of_reference() {

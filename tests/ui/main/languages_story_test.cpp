@@ -2,17 +2,22 @@
 #include <QDialog>
 #include <QLabel>
 #include <QMenuBar>
+#include <QPointer>
 #include <QRegularExpression>
 #include <QScopeGuard>
 #include <QSet>
 #include <QTimer>
 #include <QTranslator>
+#include <semaphore>
 
+#include "engine/background_job.h"
 #include "engine/lesson_course.h"
 #include "tests/support/ball_lesson.h"
 #include "tests/support/test_program.h"
+#include "tests/ui/lessons/teacher.h"
 #include "tests/ui/main/desktop.h"
 #include "tests/ui/main/window_checks.h"
+#include "ui/lessons/lesson_editor.h"
 #include "ui/look/language.h"
 #include "ui/main/message_bar.h"
 #include "ui/main/panel_docks.h"
@@ -206,6 +211,29 @@ class LanguagesStoryTest : public QObject {
     ui::MainWindow* const before = &desktop.window();
     german->trigger();
     QTest::qWait(200);
+    QCOMPARE(&desktop.window(), before);
+    QCOMPARE(ui::settings::language().get(), QStringLiteral("en"));
+    QVERIFY(!german->isChecked());
+    QVERIFY(desktop.window().findChild<ui::MessageBar*>()->text().contains("language"));
+  }
+
+  // While a language waits for work to end, such as a sweep.
+  void a_dialog_that_is_opened_meanwhile_stays() {
+    DesktopIn desktop("en");
+    const auto end = std::make_shared<std::counting_semaphore<>>(0);
+    const auto ended = qScopeGuard([end] { end->release(); });
+    engine::BackgroundJob::start(&desktop.window(), [end](engine::BackgroundJob&) { end->acquire(); });
+    ui::MainWindow* const before = &desktop.window();
+    QAction* german = desktop.window().actions().languages->actions().at(2);
+    german->trigger();
+    desktop.choose("Teach", desktop.menu_entry("Teach", "Write a lesson"));
+    const QPointer editor(before->findChild<ui::LessonEditor*>());
+    QVERIFY(editor && Desktop::wait_for([&] { return editor->isVisible(); }));
+    type<QLineEdit>(*editor, "Title", "How large a seed must be");
+    end->release();
+    QTest::qWait(300);
+    QVERIFY(editor && editor->isVisible());
+    QCOMPARE(at_hand<QLineEdit>(*editor, "Title")->text(), QStringLiteral("How large a seed must be"));
     QCOMPARE(&desktop.window(), before);
     QCOMPARE(ui::settings::language().get(), QStringLiteral("en"));
     QVERIFY(!german->isChecked());

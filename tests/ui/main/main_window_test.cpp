@@ -1,15 +1,9 @@
 // What the main window shows around the cases: panels, tools, help and messages.
-#include <QApplication>
 #include <QDialog>
 #include <QDockWidget>
-#include <QFileInfo>
-#include <QMap>
-#include <QMenuBar>
-#include <QMessageBox>
-#include <QPointer>
-#include <QRegularExpression>
+#include <QLocale>
 #include <QTextBrowser>
-#include <QTimer>
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "tests/support/test_program.h"
@@ -38,18 +32,10 @@ class MainWindowTest : public QObject {
   void full_screen_of_the_last_time_is_left_by_its_key();
   void no_menu_has_a_letter_twice();
   void numbers_are_typed_with_either_separator_in_any_language();
-  void a_session_is_among_the_recent_studies();
-  void a_quit_that_was_given_up_stays_given_up_data();
-  void a_quit_that_was_given_up_stays_given_up();
-  void a_case_that_is_kept_at_quit_keeps_the_others();
-  void a_session_is_open_once();
-  void a_case_that_is_changed_while_it_is_saved_stays_open();
-  void measurements_are_work_that_is_saved();
 
  private:
   static bool is_in_front(Desktop& desktop, const char* panel);
   static bool any_panel_shows(Desktop& desktop);
-  static void close_case(Desktop& desktop);
 };
 
 bool MainWindowTest::is_in_front(Desktop& desktop, const char* panel) {
@@ -63,12 +49,6 @@ bool MainWindowTest::any_panel_shows(Desktop& desktop) {
   return std::any_of(docks.begin(), docks.end(), [](const QDockWidget* dock) { return dock->isVisible(); });
 }
 
-void MainWindowTest::close_case(Desktop& desktop) {
-  desktop.window().active_case()->close_saved();
-  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
-  QTest::qWait(50);
-}
-
 void MainWindowTest::panels_come_and_go_with_the_cases() {
   Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   QVERIFY(!any_panel_shows(desktop));
@@ -79,7 +59,7 @@ void MainWindowTest::panels_come_and_go_with_the_cases() {
   QCOMPARE(desktop.window().findChild<QDockWidget*>("initialise")->width(), 320);
   desktop.window().panels().show("labels");
   desktop.wait_until_idle();
-  close_case(desktop);
+  desktop.close_case();
   QVERIFY(!any_panel_shows(desktop));
   // As they stood.
   QVERIFY(desktop.open_phantom("sphere"));
@@ -92,7 +72,7 @@ void MainWindowTest::hidden_panels_stay_hidden_for_the_next_case() {
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.press(Qt::Key_F3);
   QVERIFY(!any_panel_shows(desktop));
-  close_case(desktop);
+  desktop.close_case();
   QVERIFY(desktop.open_phantom("sphere"));
   QVERIFY(!any_panel_shows(desktop));
   desktop.press(Qt::Key_F3);
@@ -134,7 +114,7 @@ void MainWindowTest::without_a_case_nothing_is_chosen_or_playing() {
   desktop.press(Qt::Key_P);
   QVERIFY(Desktop::wait_for([&] { return desktop.state().playing; }));
   QVERIFY(actions.play->isChecked());
-  close_case(desktop);
+  desktop.close_case();
   QVERIFY(!actions.tools->checkedAction());
   QVERIFY(!actions.play->isChecked() && !actions.clip->isChecked());
   QCOMPARE(actions.play->text(), QString("&Play"));
@@ -177,14 +157,12 @@ void MainWindowTest::a_session_that_is_opened_shows_the_level_set() {
   Desktop desktop(solver::ExecutorKind::host, {1100, 700});
   QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(10.0);
-  desktop.window().active_case()->session_file = file;
-  desktop.press(Qt::Key_S, Qt::ControlModifier);
-  QVERIFY(Desktop::wait_for([&] { return !desktop.state().modified; }));
+  QVERIFY(desktop.save_session(file));
   for (const char* before : {"initialise", "labels", "transfer"}) {
     desktop.window().panels().show(before);
     desktop.wait_until_idle();
     QVERIFY(is_in_front(desktop, before));
-    close_case(desktop);
+    desktop.close_case();
     QVERIFY(desktop.open(file));
     QVERIFY2(is_in_front(desktop, "level-set"), before);
   }
@@ -329,171 +307,6 @@ void MainWindowTest::numbers_are_typed_with_either_separator_in_any_language() {
     desktop.screenshot(QStringLiteral("refused-number-%1").arg(language));
   }
   QLocale::setDefault(QLocale::c());
-}
-
-void MainWindowTest::a_session_is_among_the_recent_studies() {
-  Desktop desktop(solver::ExecutorKind::host);
-  const TemporaryFolder folder;
-  const QString file = QString::fromStdString((folder / "kept.tidemark").string());
-  const auto entries = [&] {
-    QList<QAction*> found;
-    for (QMenu* menu : desktop.window().menuBar()->findChildren<QMenu*>()) {
-      if (!menu->title().remove(u'&').contains("recent")) continue;
-      for (QAction* action : menu->actions()) {
-        if (action->toolTip() == file) found << action;
-      }
-    }
-    return found;
-  };
-  QVERIFY(desktop.open_phantom("sphere"));
-  desktop.begin(8.0);
-  QVERIFY(entries().isEmpty());
-  desktop.window().active_case()->session_file = file;
-  desktop.press(Qt::Key_S, Qt::ControlModifier);
-  QVERIFY(Desktop::wait_for([&] { return entries().size() == 1 && !desktop.state().modified; }));
-  QVERIFY(entries().front()->text().contains("kept.tidemark"));
-  desktop.press(Qt::Key_W, Qt::ControlModifier);
-  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
-  entries().front()->trigger();
-  QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() != nullptr; }));
-  desktop.wait_until_idle();
-  QVERIFY(desktop.state().begun);
-  QCOMPARE(desktop.window().active_case()->session_file, file);
-  QCOMPARE(entries().size(), 1);
-}
-
-void MainWindowTest::a_quit_that_was_given_up_stays_given_up_data() {
-  QTest::addColumn<bool>("fails");
-  QTest::newRow("one is kept open") << false;
-  QTest::newRow("one cannot be saved") << true;
-}
-
-// Two cases, asked about at Quit: one is saved and closes then, one is kept. Closing that one later closes no
-// more.
-void MainWindowTest::a_quit_that_was_given_up_stays_given_up() {
-  QFETCH(const bool, fails);
-  Desktop desktop(solver::ExecutorKind::host);
-  const TemporaryFolder folder;
-  const auto file = folder / (fails ? "missing" : ".") / "saved.tidemark";
-  QList<ui::CaseWindow*> cases;
-  for (const char* kind : {"sphere", "dumbbell"}) {
-    cases << desktop.open_phantom(kind);
-    desktop.begin(8.0);
-  }
-  cases[0]->session_file = QString::fromStdString(file.string());
-  const QPointer saved(cases[0]);
-  const QString kept_name = cases[1]->proxy().name();
-  if (fails) {
-    cases[1]->close_saved();
-    QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 1; }));
-  }
-  QTimer answers;
-  connect(&answers, &QTimer::timeout, [&] {
-    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-    if (!box) return;
-    const bool is_kept = box->text().contains(kept_name);
-    box->button(is_kept ? QMessageBox::Cancel : QMessageBox::Save)->click();
-  });
-  answers.start(20);
-  QVERIFY(!desktop.window().close());
-  answers.stop();
-  const auto is_over = [&] {
-    const auto* told = desktop.window().findChild<ui::MessageBar*>();
-    return fails ? told->text().contains("saved.tidemark") : !saved;
-  };
-  QVERIFY(Desktop::wait_for(is_over));
-  QCOMPARE(desktop.window().cases().size(), 1);
-  for (ui::CaseWindow* window : desktop.window().cases()) window->close_saved();
-  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
-  QTest::qWait(200);
-  QVERIFY(desktop.window().isVisible());
-}
-
-void MainWindowTest::a_case_that_is_kept_at_quit_keeps_the_others() {
-  Desktop desktop(solver::ExecutorKind::host);
-  QVERIFY(desktop.open_phantom("dumbbell"));  // without changes
-  for (int n = 0; n < 2; ++n) {
-    QVERIFY(desktop.open_phantom("sphere"));
-    desktop.begin(8.0);
-  }
-  int questions = 0;
-  QTimer answers;
-  connect(&answers, &QTimer::timeout, [&] {
-    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-    if (!box) return;
-    ++questions;
-    box->button(QMessageBox::Cancel)->click();
-  });
-  answers.start(20);
-  QVERIFY(!desktop.window().close());
-  answers.stop();
-  QCOMPARE(questions, 1);
-  QTest::qWait(50);
-  QCOMPARE(desktop.window().cases().size(), 3);
-}
-
-void MainWindowTest::a_session_is_open_once() {
-  const TemporaryFolder folder;
-  const QString file = QString::fromStdString((folder / "one.tidemark").string());
-  Desktop desktop(solver::ExecutorKind::host);
-  ui::CaseWindow* first = desktop.open_phantom("sphere");
-  desktop.begin(10.0);
-  first->session_file = file;
-  desktop.press(Qt::Key_S, Qt::ControlModifier);
-  QVERIFY(Desktop::wait_for([&] { return !first->proxy().state().modified; }));
-  QVERIFY(desktop.open_phantom("dumbbell"));
-  const std::filesystem::path link = folder / "link.tidemark";
-  std::filesystem::create_symlink(folder / "one.tidemark", link);
-  desktop.window().open(QString::fromStdString(link.string()));
-  QVERIFY(Desktop::wait_for([&] { return desktop.window().active_case() == first; }));
-  desktop.wait_until_idle();
-  QCOMPARE(desktop.window().cases().size(), 2);
-}
-
-void MainWindowTest::a_case_that_is_changed_while_it_is_saved_stays_open() {
-  const TemporaryFolder folder;
-  const QString file = QString::fromStdString((folder / "one.tidemark").string());
-  Desktop desktop(solver::ExecutorKind::host);
-  const QPointer window(desktop.open_phantom("sphere"));
-  desktop.begin(10.0);
-  window->session_file = file;
-  Desktop::answer(QMessageBox::Save);
-  desktop.press(Qt::Key_W, Qt::ControlModifier);
-  window->proxy().add_label("changed");
-  QVERIFY(Desktop::wait_for([&] { return QFileInfo::exists(file); }));
-  desktop.wait_until_idle();
-  QTest::qWait(100);
-  QVERIFY(window);
-  QVERIFY(window->proxy().state().modified);
-  const auto* told = desktop.window().findChild<ui::MessageBar*>();
-  QVERIFY2(told->text().contains("stays open"), qPrintable(told->text()));
-  Desktop::answer(QMessageBox::Save);
-  desktop.press(Qt::Key_W, Qt::ControlModifier);
-  QVERIFY(Desktop::wait_for([&] { return !window; }));
-}
-
-void MainWindowTest::measurements_are_work_that_is_saved() {
-  const TemporaryFolder folder;
-  const QString file = QString::fromStdString((folder / "one.tidemark").string());
-  Desktop desktop(solver::ExecutorKind::host);
-  QVERIFY(desktop.open_phantom("sphere"));
-  QVERIFY(!desktop.state().modified);
-  const auto measure = [&](const glm::dvec3& end) {
-    desktop.proxy().display().change([&](engine::DisplaySettings& settings) {
-      settings.measurements = {{engine::Measurement::Kind::distance, {glm::dvec3(0.0), end}}};
-    });
-  };
-  measure(glm::dvec3(5.0));
-  QVERIFY(desktop.state().modified);
-  desktop.window().active_case()->session_file = file;
-  desktop.press(Qt::Key_S, Qt::ControlModifier);
-  QVERIFY(Desktop::wait_for([&] { return !desktop.state().modified; }));
-  close_case(desktop);
-  QVERIFY(desktop.open(file));
-  QCOMPARE(desktop.proxy().display().settings().measurements.size(), std::size_t{1});
-  QVERIFY(!desktop.state().modified);
-  measure(glm::dvec3(6.0));
-  QVERIFY(desktop.state().modified);
 }
 
 TIDEMARK_TEST(MainWindowTest)

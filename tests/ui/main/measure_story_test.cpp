@@ -6,8 +6,11 @@
 #include <QRegularExpression>
 #include <glm/geometric.hpp>
 
+#include "imaging/files/volume_file.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
+#include "ui/main/case_exports.h"
+#include "ui/main/case_files.h"
 #include "ui/main/panel_docks.h"
 #include "ui/panels/figure_table.h"
 #include "ui/panels/statistics_panel.h"
@@ -21,6 +24,7 @@ class MeasureStoryTest : public QObject {
   void a_surface_is_measured_and_its_diameters_are_drawn();
   void area_and_sphericity_are_of_one_form();
   void measures_are_of_the_case_and_the_surface_that_are_seen();
+  void small_values_are_told_with_their_digits();
 
  private:
   static void click(Desktop& desktop, QWidget& in, const QString& text) {
@@ -138,6 +142,47 @@ void MeasureStoryTest::measures_are_of_the_case_and_the_surface_that_are_seen() 
   QVERIFY(first_number(seen<QLabel>(panel, "Longest")->text()) > 0.0);
   sphere->proxy().paint({desktop.seed_mm(), 9.0}, solver::Brush::add, engine::CaseProxy::new_gesture());
   QVERIFY(Desktop::wait_for([&] { return find_seen<QAbstractButton>(panel, "Draw diameters") == nullptr; }));
+}
+
+// A map from 0 to 1, and a ball of 0.45 in it.
+void MeasureStoryTest::small_values_are_told_with_their_digits() {
+  const TemporaryFolder folder;
+  Volume volume;
+  volume.geometry.size = Index3(32);
+  const glm::dvec3 middle = volume.geometry.to_patient(glm::dvec3(16.0));
+  std::vector<float> values;
+  for (std::int64_t n = 0; n < volume.geometry.voxel_count(); ++n) {
+    const glm::dvec3 place = volume.geometry.to_patient(glm::dvec3(volume.geometry.voxel_at(n)));
+    const bool inside = glm::distance(place, middle) < 8.0;
+    values.push_back(inside ? 0.45F : static_cast<float>(n % 1000) / 1000.0F);
+  }
+  volume.voxels = std::move(values);
+  QCOMPARE(failure(imaging::write_volume_file(volume, folder / "map.nrrd")), QString());
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open(QString::fromStdString((folder / "map.nrrd").string())));
+  ui::StatisticsPanel& panel = *shown_panel(desktop);
+  solver::Parameters parameters = desktop.proxy().parameters();
+  parameters.target = 0.44;
+  parameters.range = 0.05;
+  desktop.proxy().set_parameters(parameters);
+  document::Start start;
+  start.seeds.push_back({middle, 6.0});
+  desktop.proxy().begin(start);
+  desktop.wait_until_idle();
+  QTRY_COMPARE(seen<QLabel>(panel, "Mean")->text(), QString("0.450"));
+  click(desktop, panel, "Measure");
+  QVERIFY(wait_for_measures(panel));
+  QCOMPARE(seen<ui::FigureTable>(panel, "Values inside")->item(0, 1)->text(), QString("0.450"));
+
+  bool done = false;
+  QObject scope;
+  connect(&desktop.window().files(), &ui::CaseFiles::written, &scope, [&] { done = true; });
+  const auto file = folder / "report.html";
+  desktop.window().exports().write_report(*desktop.window().active_case(),
+                                          QString::fromStdString(file.string()));
+  QVERIFY(Desktop::wait_for([&] { return done; }));
+  const QByteArray report = bytes_of(file);
+  for (const char* words : {"0.440", "0.050", "0.450 ± 0.000"}) QVERIFY2(report.contains(words), words);
 }
 
 TIDEMARK_TEST(MeasureStoryTest)

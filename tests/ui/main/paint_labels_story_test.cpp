@@ -2,11 +2,15 @@
 #include <QAbstractButton>
 #include <QComboBox>
 #include <QMenu>
+#include <QMouseEvent>
 #include <QTableView>
+#include <QWheelEvent>
 #include <cmath>
+#include <future>
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "engine/case_runner.h"
 #include "imaging/files/volume_file.h"
 #include "tests/support/grid.h"
 #include "tests/support/test_program.h"
@@ -32,6 +36,9 @@ class PaintLabelsStoryTest : public QObject {
   void a_label_is_chosen_where_it_is_seen();
   void a_stroke_lies_in_the_slice_that_is_seen();
   void escape_gives_a_stroke_up();
+  void a_stroke_ends_once_its_button_is_no_longer_held();
+  void a_stroke_keeps_to_its_slice();
+  void strokes_that_wait_for_the_engine_paint_one_label();
   void the_place_under_a_resting_mouse_follows_the_slice();
   void space_ticks_a_cell_of_the_table_and_keeps_the_tool();
 
@@ -406,6 +413,103 @@ void PaintLabelsStoryTest::escape_gives_a_stroke_up() {
     desktop.wait_until_idle();
     QCOMPARE(desktop.state().labels.empty(), given_up);
   }
+}
+
+// As after a dialog that has opened under it.
+void PaintLabelsStoryTest::a_stroke_ends_once_its_button_is_no_longer_held() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  const glm::dvec3 seed = desktop.seed_mm();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  desktop.press(Qt::Key_Q);
+  Desktop::mouse(*axial, QEvent::MouseButtonPress, seed);
+  Desktop::mouse(*axial, QEvent::MouseMove, seed + glm::dvec3(4.0, 0.0, 0.0));
+  QVERIFY(desktop.proxy().display().drawn_label());
+  for (const double beside_mm : {20.0, 24.0}) {
+    const QPointF there = axial->position_of(seed + glm::dvec3(beside_mm, 0.0, 0.0));
+    QMouseEvent move(QEvent::MouseMove, there, axial->mapToGlobal(there), Qt::NoButton, Qt::NoButton, {});
+    QApplication::sendEvent(axial, &move);
+    QVERIFY(!desktop.proxy().display().drawn_label());
+  }
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Geometry& grid = desktop.proxy().volume().geometry;
+  const Region painted = region(desktop, 1);
+  QVERIFY(painted.contains(Index3(glm::round(grid.to_voxel(seed)))));
+  const double end_mm = 6.0 + desktop.proxy().display().settings().brush_mm;
+  QVERIFY(static_cast<double>(painted.bounds().high.x) <
+          grid.to_voxel(seed + glm::dvec3(end_mm, 0.0, 0.0)).x);
+}
+
+void PaintLabelsStoryTest::a_stroke_keeps_to_its_slice() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  const glm::dvec3 seed = desktop.seed_mm();
+  const Geometry& grid = desktop.proxy().volume().geometry;
+  engine::Display& display = desktop.proxy().display();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  desktop.press(Qt::Key_Q);
+  const glm::dvec3 cursor = display.settings().cursor_mm;
+  const auto slice = std::llround(grid.to_voxel(cursor).z);
+  const auto beside = [&](double x, double y) { return seed + glm::dvec3(x, y, 0.0); };
+  const auto is_in_slice = [&](const Region& painted) {
+    return painted.bounds().low.z == slice && painted.bounds().high.z == slice + 1;
+  };
+  // The wheel waits for the button.
+  const auto turn_wheel = [&] {
+    const QPointF there = axial->position_of(seed);
+    QWheelEvent wheel(there, axial->mapToGlobal(there), {}, {0, 120}, Qt::LeftButton, {}, Qt::NoScrollPhase,
+                      false);
+    QApplication::sendEvent(axial, &wheel);
+  };
+  Desktop::mouse(*axial, QEvent::MouseButtonPress, beside(0.0, 0.0));
+  turn_wheel();
+  QVERIFY(display.settings().cursor_mm == cursor);
+  Desktop::mouse(*axial, QEvent::MouseMove, beside(8.0, 0.0));
+  Desktop::mouse(*axial, QEvent::MouseButtonRelease, beside(8.0, 0.0));
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Region first = region(desktop, 1);
+  QVERIFY(is_in_slice(first));
+  // Where a leak, or a linked case, shows another slice, the stroke has ended.
+  Desktop::mouse(*axial, QEvent::MouseButtonPress, beside(0.0, 20.0));
+  display.change([&](engine::DisplaySettings& settings) { settings.cursor_mm.z += grid.spacing_mm.z; });
+  QVERIFY(!display.drawn_label());
+  Desktop::mouse(*axial, QEvent::MouseMove, beside(20.0, 20.0));
+  Desktop::mouse(*axial, QEvent::MouseButtonRelease, beside(20.0, 20.0));
+  desktop.wait_until_idle();
+  const Region both = region(desktop, 1);
+  QVERIFY(is_in_slice(both));
+  QVERIFY(both.count() > first.count());
+  QVERIFY(both.bounds().high.x == first.bounds().high.x);
+  turn_wheel();
+  QVERIFY(display.settings().cursor_mm.z != cursor.z + grid.spacing_mm.z);
+}
+
+void PaintLabelsStoryTest::strokes_that_wait_for_the_engine_paint_one_label() {
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  const glm::dvec3 seed = desktop.seed_mm();
+  auto* axial = desktop.view<ui::SliceViewWidget>("Axial");
+  desktop.press(Qt::Key_Q);
+  std::promise<void> go_on;
+  desktop.proxy().runner()->post(
+      [goes_on = go_on.get_future().share()](engine::CaseRunner&, const Progress&) -> Status {
+        goes_on.wait();
+        return {};
+      });
+  const auto beside = [&](double x) { return seed + glm::dvec3(x, 0.0, 0.0); };
+  Desktop::drag(*axial, {beside(-20.0), beside(-14.0)});
+  Desktop::drag(*axial, {beside(14.0), beside(20.0)});
+  Desktop::drag(*axial, {beside(-20.0), beside(-14.0)}, Qt::RightButton);
+  QVERIFY(desktop.state().labels.empty());
+  go_on.set_value();
+  desktop.wait_until_idle();
+  QCOMPARE(desktop.state().labels.size(), std::size_t{1});
+  const Geometry& grid = desktop.proxy().volume().geometry;
+  const auto voxel_at = [&](glm::dvec3 place) { return Index3(glm::round(grid.to_voxel(place))); };
+  QVERIFY(region(desktop, 1).contains(voxel_at(beside(17.0))));
+  QVERIFY(!region(desktop, 1).contains(voxel_at(beside(-17.0))));
 }
 
 void PaintLabelsStoryTest::the_place_under_a_resting_mouse_follows_the_slice() {

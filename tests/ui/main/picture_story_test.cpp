@@ -63,7 +63,7 @@ class PictureStoryTest : public QObject {
     QVERIFY(slice);
     QVERIFY(ui::settings::layout().get() == ui::ViewLayout::two_two);
     QVERIFY(shows_a_picture(*slice));
-    QVERIFY(!desktop.proxy().study().oriented);
+    QVERIFY(!desktop.proxy().volume().geometry.oriented);
     desktop.screenshot("picture-1-opened");
 
     const glm::dvec3 centre = desktop.proxy().volume().geometry.to_patient({kCentre, 0.0});

@@ -72,6 +72,7 @@ class ReadersStoryTest : public QObject, ResultsDesktop {
   void what_is_no_segmentation_is_named_and_the_others_stay();
   void the_table_goes_out_with_points_where_the_language_has_commas();
   void a_comparison_is_given_up();
+  void a_comparison_right_after_an_edit_is_of_the_surface_after_it();
   void the_dialog_closes_with_its_case();
 
  private:
@@ -384,6 +385,22 @@ void ReadersStoryTest::a_comparison_is_given_up() {
   QVERIFY(pairs(dialog).rowCount() < 3);
   compare(dialog);
   QCOMPARE(pairs(dialog).rowCount(), 3);
+}
+
+void ReadersStoryTest::a_comparison_right_after_an_edit_is_of_the_surface_after_it() {
+  engine::CaseProxy& proxy = window_->proxy();
+  document::Start start;
+  start.seeds.push_back({kRight, 3.0});
+  proxy.begin(start);
+  desktop_->wait_until_idle();
+  ui::ReadersDialog& dialog = *open_dialog();
+  add(dialog, {path(kNames[0])});
+  proxy.paint({kRight, kRadius}, solver::Brush::add, engine::CaseProxy::new_gesture());
+  compare(dialog);
+  QCOMPARE(pairs(dialog).rowCount(), 1);
+  const double ml = proxy.state().surface.volume_ml;
+  const double dice = pairs(dialog).item(0, kDice)->text().toDouble();
+  QVERIFY2(dice > 0.95, qPrintable(QStringLiteral("%1, of %2 ml").arg(dice).arg(ml)));
 }
 
 void ReadersStoryTest::the_dialog_closes_with_its_case() {

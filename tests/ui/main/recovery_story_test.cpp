@@ -1,5 +1,7 @@
 // A program that is killed leaves its work behind, and the next one goes on with it.
 #include <QApplication>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QProcess>
 #include <QPushButton>
 #include <chrono>
@@ -9,7 +11,9 @@
 
 #include "document/autosave.h"
 #include "document/recovery_folder.h"
+#include "document/session_file.h"
 #include "engine/background_job.h"
+#include "engine/display_json.h"
 #include "imaging/phantom/phantom.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/main/desktop.h"
@@ -69,9 +73,13 @@ class RecoveryStoryTest : public QObject {
  private slots:
   void work_is_there_again_after_a_kill();
   void a_damaged_session_brings_the_copies_that_there_are();
+  void copies_are_offered_again_until_they_are_thrown_away();
+  void the_copy_of_a_rescued_case_has_its_measurements();
   void nothing_is_offered_after_a_clean_end();
 
  private:
+  static void leave_a_copy(Desktop& desktop, const std::string& view_state = "{}");
+
   TemporaryFolder home_;
 };
 
@@ -138,6 +146,16 @@ void RecoveryStoryTest::work_is_there_again_after_a_kill() {
   QVERIFY(Desktop::wait_for([] { return files_of_copies() == 0; }));
 }
 
+// Of the active case, as a program that died.
+void RecoveryStoryTest::leave_a_copy(Desktop& desktop, const std::string& view_state) {
+  bool kept = false;
+  desktop.proxy().take_snapshot(view_state, [&kept](const auto& snapshot) {
+    auto copies = document::Autosave::create(engine::recovery_folder(), document::new_copy_id());
+    kept = copies && copies->write(snapshot->contents);
+  });
+  QVERIFY(Desktop::wait_for([&] { return kept; }));
+}
+
 void RecoveryStoryTest::a_damaged_session_brings_the_copies_that_there_are() {
   Desktop desktop(solver::ExecutorKind::host, {900, 640});
   QVERIFY(desktop.open_phantom("dumbbell"));
@@ -153,13 +171,7 @@ void RecoveryStoryTest::a_damaged_session_brings_the_copies_that_there_are() {
       qPrintable(messages->text()));
   QVERIFY(!messages->text().contains("zip", Qt::CaseInsensitive));
 
-  // A copy that a program left behind.
-  bool kept = false;
-  desktop.proxy().take_snapshot("{}", [&kept](const auto& snapshot) {
-    auto copies = document::Autosave::create(engine::recovery_folder(), document::new_copy_id());
-    kept = copies && copies->write(snapshot->contents);
-  });
-  QVERIFY(Desktop::wait_for([&] { return kept; }));
+  leave_a_copy(desktop);
   QString offered;
   QTimer user;
   connect(&user, &QTimer::timeout, this, [&offered] {
@@ -180,6 +192,83 @@ void RecoveryStoryTest::a_damaged_session_brings_the_copies_that_there_are() {
   // What could not be opened is over.
   QCOMPARE(messages->text(), QString());
   for (int window = 0; window < 2; ++window) Desktop::answer(QMessageBox::Discard);
+  QVERIFY(desktop.window().close());
+  QVERIFY(Desktop::wait_for([] { return files_of_copies() == 0; }));
+}
+
+void RecoveryStoryTest::copies_are_offered_again_until_they_are_thrown_away() {
+  Desktop desktop(solver::ExecutorKind::host, {900, 640});
+  QVERIFY(desktop.open_phantom("dumbbell"));
+  desktop.begin(9.0);
+  for (int copy = 0; copy < 2; ++copy) leave_a_copy(desktop);
+  const auto kept = [] { return document::find_recoverable(engine::recovery_folder()).size(); };
+  QCOMPARE(kept(), std::size_t{2});
+  const auto reply = [&](const QString& wanted) {
+    bool pressed = false;
+    QTimer user;
+    connect(&user, &QTimer::timeout, this, [&] {
+      const auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      if (!box) return;
+      for (QPushButton* button : box->findChildren<QPushButton*>()) {
+        if (button->text().remove('&') != wanted) continue;
+        pressed = true;
+        return button->click();
+      }
+    });
+    user.start(20);
+    desktop.window().session_reader().offer_rescued();
+    QVERIFY(Desktop::wait_for([&] { return pressed; }));
+    desktop.wait_until_idle();
+    QCOMPARE(desktop.window().cases().size(), 1);
+  };
+  reply("Ask again later");
+  QCOMPARE(kept(), std::size_t{2});
+  reply("Throw them away");
+  QCOMPARE(kept(), std::size_t{0});
+  Desktop::answer(QMessageBox::Discard);
+  QVERIFY(desktop.window().close());
+  QVERIFY(Desktop::wait_for([] { return files_of_copies() == 0; }));
+}
+
+// It replaces the copy that the case came from.
+void RecoveryStoryTest::the_copy_of_a_rescued_case_has_its_measurements() {
+  {
+    Desktop desktop(solver::ExecutorKind::host, {900, 640});
+    QVERIFY(desktop.open_phantom("sphere"));
+    desktop.begin(9.0);
+    desktop.proxy().display().change([](engine::DisplaySettings& settings) {
+      settings.measurements = {{engine::Measurement::Kind::distance, {glm::dvec3(0.0), glm::dvec3(5.0)}}};
+    });
+    leave_a_copy(desktop, desktop.window().active_case()->view_state());
+    Desktop::answer(QMessageBox::Discard);
+    QVERIFY(desktop.window().close());
+  }
+  Desktop desktop(solver::ExecutorKind::host, {900, 640});
+  QTimer user;
+  connect(&user, &QTimer::timeout, this, [] {
+    const auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (!box) return;
+    for (QPushButton* button : box->findChildren<QPushButton*>()) {
+      if (button->text().remove('&') == "Open it") return button->click();
+    }
+  });
+  user.start(20);
+  desktop.window().session_reader().offer_rescued();
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().size() == 1; }));
+  user.stop();
+  QVERIFY(Desktop::wait_for([] { return document::find_recoverable(engine::recovery_folder()).empty(); }));
+  QStringList measured;
+  for (const auto& entry : std::filesystem::directory_iterator(engine::recovery_folder())) {
+    if (entry.path().extension() != ".tidemark") continue;
+    const auto copy = document::load_session(entry.path());
+    QCOMPARE(failure(copy), QString());
+    const auto state = QJsonDocument::fromJson(QByteArray::fromStdString(copy->view_state)).object();
+    const auto shown = engine::display_settings(state["display"].toString().toStdString(), {});
+    QCOMPARE(failure(shown), QString());
+    measured << QString::number(shown->measurements.size());
+  }
+  QCOMPARE(measured, QStringList{"1"});
+  Desktop::answer(QMessageBox::Discard);
   QVERIFY(desktop.window().close());
   QVERIFY(Desktop::wait_for([] { return files_of_copies() == 0; }));
 }

@@ -4,6 +4,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QToolButton>
+#include <fstream>
 
 #include "imaging/pacs/services.h"
 #include "imaging/results/results.h"
@@ -43,6 +44,7 @@ class ResultsStoryTest : public QObject, private ResultsDesktop {
   void the_surface_alone_is_a_result_too();
   void a_study_that_is_no_dicom_says_what_that_means();
   void a_file_of_the_study_is_never_written_to();
+  void what_a_dialog_asks_goes_with_its_case();
   void labels_are_sent_to_a_server();
   void a_server_that_keeps_silent_is_given_up_by_a_click();
 
@@ -190,7 +192,9 @@ void ResultsStoryTest::labels_go_out_as_polygons() {
   right.visible = false;
   desktop_->proxy().set_label(right);
   desktop_->wait_until_idle();
-  const auto write = [&](const QString& what) {
+  const fs::path left_file = folder_ / "organs-Left one.stl";
+  const fs::path right_file = folder_ / "organs-Right one.stl";
+  const auto write = [&](const QString& what, const QList<QMessageBox::StandardButton>& replies) {
     action->trigger();
     QPointer<ui::WriteResultDialog> dialog = window_->findChild<ui::WriteResultDialog*>();
     QVERIFY(dialog && dialog->isVisible());
@@ -203,19 +207,25 @@ void ResultsStoryTest::labels_go_out_as_polygons() {
     }
     dialog->findChild<QLineEdit*>()->setText(path("organs"));  // the usual ending is added
     picture(*dialog, "write-" + action->objectName());
-    QTest::mouseClick(button(*dialog, "Write"), Qt::LeftButton);
+    for (const QMessageBox::StandardButton reply : replies) {
+      const auto asked = Desktop::answer(reply);
+      QTest::mouseClick(button(*dialog, "Write"), Qt::LeftButton);
+      QVERIFY(Desktop::wait_for([&] { return *asked; }));
+      if (reply == QMessageBox::Yes) continue;
+      desktop_->wait_until_idle();
+      QVERIFY(dialog && dialog->isVisible());
+      QVERIFY(bytes_of(left_file) == "kept");
+      QVERIFY(!fs::exists(right_file));
+    }
+    if (replies.isEmpty()) QTest::mouseClick(button(*dialog, "Write"), Qt::LeftButton);
     QVERIFY(Desktop::wait_for([&] { return dialog.isNull(); }, kPatience));
   };
-  const fs::path left_file = folder_ / "organs-Left one.stl";
-  const fs::path right_file = folder_ / "organs-Right one.stl";
-  write("Visible labels");
+  write("Visible labels", {});
   QVERIFY(fs::exists(left_file));
   QVERIFY(!fs::exists(right_file));
-  const auto first = fs::last_write_time(left_file);
-  Desktop::answer(QMessageBox::Yes);  // the left one is there already
-  write("All labels");
+  { std::ofstream(left_file) << "kept"; }
+  write("All labels", {QMessageBox::No, QMessageBox::Yes});  // the left one is there already
   QVERIFY(fs::exists(right_file));
-  QVERIFY(fs::last_write_time(left_file) > first);
   QVERIFY(fs::file_size(left_file) > fs::file_size(right_file));  // the larger ball
   QVERIFY(fs::file_size(right_file) > 10'000);
 }
@@ -256,6 +266,33 @@ void ResultsStoryTest::a_file_of_the_study_is_never_written_to() {
   QTest::mouseClick(button(*dialog, "Write"), Qt::LeftButton);
   QVERIFY(says(*dialog, "never written to"));
   QCOMPARE(fs::file_size(slice), size);
+}
+
+// The case closes while a question, or the list of servers, is open.
+void ResultsStoryTest::what_a_dialog_asks_goes_with_its_case() {
+  { std::ofstream(folder_ / "there.dcm") << "kept"; }
+  ui::Actions& actions = desktop_->window().actions();
+  for (QAction* action : {actions.export_segmentation, actions.send_result}) {
+    begin(kLeft);
+    action->trigger();
+    const QPointer<ui::ResultDialog> dialog = window_->findChild<ui::ResultDialog*>();
+    QVERIFY(dialog);
+    const bool writes = action == actions.export_segmentation;
+    if (writes) dialog->findChild<QLineEdit*>()->setText(path("there.dcm"));
+    bool closes = false;
+    QTimer timer;
+    connect(&timer, &QTimer::timeout, this, [&] {
+      if (QApplication::activeModalWidget() && !std::exchange(closes, true)) window_->close_saved();
+    });
+    timer.start(20);
+    QTest::mouseClick(button(*dialog, writes ? "Write" : "Servers…"), Qt::LeftButton);
+    QVERIFY(Desktop::wait_for([&] { return dialog.isNull(); }, kPatience));
+    QVERIFY(closes);
+    QVERIFY(!QApplication::activeModalWidget());
+    window_ = desktop_->open(path("study"));
+    QVERIFY(window_);
+  }
+  QCOMPARE(bytes_of(folder_ / "there.dcm"), QByteArray("kept"));
 }
 
 ui::SendResultDialog* ResultsStoryTest::send_to(const imaging::PacsServer& server) {

@@ -153,6 +153,13 @@ void SteeringStoryTest::a_study_is_opened_probed_steered_and_saved() {
   QVERIFY(mask);
   QCOMPARE(mask->count(), desktop.state().surface.voxels_inside);
   QVERIFY(dice(*mask, phantom->truth) > 0.97);
+  const auto labels = imaging::load_volume(folder / "labels.nrrd");
+  QCOMPARE(failure(labels), QString());
+  const auto id = static_cast<float>(desktop.state().labels[0].id);
+  std::int64_t labelled = 0;
+  for (std::int64_t v = 0; v < labels->geometry.voxel_count(); ++v)
+    labelled += labels->value(v) == id ? 1 : 0;
+  QCOMPARE(labelled, desktop.state().label_statistics[0].voxels);
 
   // A session, closed and opened again: everything is there.
   const QString session_file = QString::fromStdString((folder / "case.tidemark").string());

@@ -83,6 +83,33 @@ class InitialisePanelTest : public QObject {
     QVERIFY(says(tr("outside the study")));
   }
 
+  // A dark voxel of the ball is none of the smoothed study, in which the flood begins.
+  void a_flood_is_judged_by_the_smoothed_study() {
+    const Volume& volume = the_case_->proxy->volume();
+    const Index3 middle(glm::round(volume.geometry.to_voxel(the_case_->middle())));
+    Index3 dark = middle;
+    for (Index3 voxel = middle - Index3(3, 0, 0); voxel.x <= middle.x + 3; ++voxel.x) {
+      if (volume.value(voxel) < volume.value(dark)) dark = voxel;
+    }
+    QVERIFY(volume.value(dark) < 98.0F);
+    the_case_->proxy->display().change([&](engine::DisplaySettings& settings) {
+      settings.cursor_mm = volume.geometry.to_patient(glm::dvec3(dark));
+    });
+    choose(tr("Flood fill"));
+    type(tr("From"), "98");
+    type(tr("To"), "105");
+    QVERIFY(!start_button()->isEnabled());
+    the_case_->proxy->smooth_source(2.0);
+    QTRY_COMPARE(the_case_->state().smoothed_mm, 2.0);
+    QVERIFY(start_button()->isEnabled());
+    QVERIFY2(!says(tr("The value at the crosshair is not")), qPrintable(sentence()));
+    start();
+    QVERIFY(the_case_->state().surface.volume_ml > 0.1 * ball_ml());
+    // How many of its voxels a threshold takes is not known before.
+    choose(tr("Threshold"));
+    QVERIFY2(!says(QChar(QChar::Nbsp) + QStringLiteral("%")), qPrintable(sentence()));
+  }
+
   void it_begins_where_the_speed_is_above_0() {
     solver::Parameters parameters = the_case_->proxy->parameters();
     parameters.target = 82.5;

@@ -111,6 +111,8 @@ class SliderNumberTest : public QObject {
     QCOMPARE(ui::decimals_for(4000.0), 0);
     QCOMPARE(ui::decimals_for(1.0), 3);
     QCOMPARE(ui::decimals_for(0.0), 0);
+    QCOMPARE(ui::value_decimals(4000.0), 1);
+    QCOMPARE(ui::value_decimals(1.0), 3);
     QLocale::setDefault(QLocale(QLocale::German));
     QCOMPARE(ui::number_text(1234.56, 1, "mm"), QStringLiteral("1234,6") + QChar(QChar::Nbsp) + "mm");
     QLocale::setDefault(QLocale::c());

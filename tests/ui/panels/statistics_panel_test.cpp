@@ -76,6 +76,14 @@ class StatisticsPanelTest : public QObject {
     QCOMPARE(lines[4], QStringLiteral("angle,,,,,,,90.00,degrees"));
   }
 
+  void a_label_from_a_file_is_no_formula_in_the_file() {
+    the_case_->proxy->add_label(QStringLiteral("=1+1"));
+    the_case_->wait_until_idle();
+    const QStringList lines = exported();
+    QCOMPARE(lines.size(), 3);
+    QVERIFY2(lines[1].startsWith(QStringLiteral("'=1+1,")), qPrintable(lines[1]));
+  }
+
   void what_is_copied_has_tabs_and_the_users_numbers() {
     the_case_->begin(8.0);
     QTest::mouseClick(button<QPushButton>(*panel_, tr("Copy")), Qt::LeftButton);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
@@ -67,6 +68,44 @@ class CornersTest : public QObject {
     painter.end();
     QVERIFY(differing_pixels(picture, empty, QRect(0, 0, 140, 200)) > 500);
     QCOMPARE(differing_pixels(picture, empty, QRect(142, 0, 158, 200)), 0);
+  }
+
+  // Right in the picture is the patient's left, up is the front.
+  void every_edge_bears_the_letter_of_its_side() {
+    const QSize size(400, 300);
+    const auto painted = [size](const auto& paint) {
+      QImage picture(size, QImage::Format_RGB32);
+      picture.fill(Qt::black);
+      QPainter painter(&picture);
+      paint(painter);
+      painter.end();
+      return picture;
+    };
+    struct Edge {
+      const char* letter;
+      Qt::Alignment side;
+      QRect in;
+    };
+    const std::vector<Edge> edges{
+        {"L", Qt::AlignRight | Qt::AlignVCenter, QRect(340, 0, 60, 300)},
+        {"R", Qt::AlignLeft | Qt::AlignVCenter, QRect(0, 0, 60, 300)},
+        {"A", Qt::AlignTop | Qt::AlignHCenter, QRect(150, 0, 100, 60)},
+        {"P", Qt::AlignBottom | Qt::AlignHCenter, QRect(150, 240, 100, 60)},
+    };
+    const QImage empty = painted([](QPainter& /*painter*/) {});
+    for (const bool is_known : {true, false}) {
+      const QImage all = painted([&](QPainter& painter) {
+        ui::paint_orientation(painter, size, {1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, is_known);
+      });
+      for (const Edge& edge : edges) {
+        const QImage alone = painted([&](QPainter& painter) {
+          ui::paint_text(painter, QRectF(8, 8, 384, 284), static_cast<int>(edge.side),
+                         is_known ? edge.letter : "?");
+        });
+        QVERIFY2(differing_pixels(alone, empty, edge.in) > 10, edge.letter);
+        QVERIFY2(differing_pixels(all, alone, edge.in) == 0, edge.letter);
+      }
+    }
   }
 
   // WCAG 2.1: the contrast of text to what it stands on.
