@@ -5,18 +5,6 @@
 #include "document/level_set.h"
 
 namespace tidemark::document {
-namespace {
-
-// One that is made anew lies elsewhere in memory each time, and in pages of the executor of that time.
-bool is_same_start(const std::shared_ptr<const solver::Field>& now,
-                   const std::shared_ptr<const solver::Field>& then) {
-  if (now == then) return true;
-  const Index3 shape = then->layout.page_shape();
-  if (now->layout.page_shape() == shape) return solver::same_pages(*now, *then);
-  return solver::same_pages(now->repaged(then->band, shape), *then);
-}
-
-}  // namespace
 
 Result<SweepStart> LevelSet::sweep_start() {
   if (!begun()) return fail(ErrorKind::usage, "there is no surface yet: a start is needed");
@@ -34,7 +22,9 @@ Status LevelSet::take_run(const SweepStart& start, const SweepRun& run, const Pr
   const bool same_source = start.source == source();
   auto point = start_point(run.parameters, run.drive == nullptr ? start.drive : run.drive);
   if (!point) return pass_on(point);
-  if (!is_same_start(point->start, start.phi) || !same_source) {
+  // One that is made anew lies elsewhere each time.
+  const bool same_start = point->start == start.phi || solver::same_pages(*point->start, *start.phi);
+  if (!same_start || !same_source) {
     return fail(ErrorKind::usage, "the surface began in another way since the sweep: sweep again");
   }
   const Point before = known_;

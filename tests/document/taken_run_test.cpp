@@ -98,20 +98,6 @@ class TakenRunTest : public QObject {
     }
   }
 
-  // A start that is made anew has pages of the executor that computes by then.
-  void a_run_is_taken_by_an_executor_with_other_pages() {
-    const auto document = begun_case();
-    document::LevelSet& level_set = document->level_set();
-    QCOMPARE(failure(level_set.set_drive(with_wall(*document, {1.3, -0.7, 0.4}, 3.0))), QString());
-    run(level_set, 10);
-    QCOMPARE(failure(level_set.set_drive({})), QString());
-    const auto start = start_of(level_set);
-    const auto sweep = swept(start);
-    QCOMPARE(failure(level_set.change_executor(solver::ExecutorKind::stream, {})), QString());
-    QCOMPARE(failure(level_set.take_run(start, sweep.at(1, 0))), QString());
-    QVERIFY(dice(inside(level_set), sweep.at(1, 0).inside) > 0.999);
-  }
-
   void functions_are_taken_with_their_numbers() {
     const auto document = begun_case();
     document::LevelSet& level_set = document->level_set();

@@ -260,6 +260,7 @@ std::shared_ptr<const bool> Desktop::answer(QMessageBox::StandardButton button) 
   QObject::connect(timer, &QTimer::timeout, timer, [timer, button, asked] {
     auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
     if (!box || !box->button(button)) return;
+    timer->stop();  // it goes with a later turn of the event loop
     timer->deleteLater();
     *asked = true;
     box->button(button)->click();
