@@ -23,6 +23,7 @@ inline void name_file_when_asked(const QString& file) {
   QObject::connect(timer, &QTimer::timeout, timer, [timer, file] {
     auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
     if (!dialog) return;
+    timer->stop();
     timer->deleteLater();
     name_file(*dialog, file);
   });
