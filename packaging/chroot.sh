@@ -38,11 +38,17 @@ tidemark_inside() {
     apart+=(--net)
     shift
   fi
+  # The root of a system that was itself entered by chroot is no mount, and its parent mount cannot be made private.
+  if ! mountpoint -q /; then apart+=(--propagation unchanged); fi
   local folder=$1
   shift
   # shellcheck disable=SC2016  # for the inner shell
   unshare "${apart[@]}" --fork --kill-child -- sh -c '
-    mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" "$@"' "$folder" \
+    mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && mount --make-rslave "$0/dev" || exit
+    chroot "$0" "$@"
+    code=$?
+    umount -R -l "$0/dev" "$0/proc"
+    exit "$code"' "$folder" \
     env -i HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
     PATH=/usr/sbin:/usr/bin:/sbin:/bin SOURCE_DATE_EPOCH="${SOURCE_DATE_EPOCH:-}" "$@"
 }
