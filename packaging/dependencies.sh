@@ -24,7 +24,7 @@ tidemark_test_packages=(
 )
 
 # Only ./test --long needs these.
-tidemark_long_test_packages=(clang-format clang-tidy python3-skimage)
+tidemark_long_test_packages=(clang-format clang-tidy python3-skimage nodejs)
 
 # Only making packages (packaging/release.sh) and ./test --long need these: what is in the bundle beside libraries, what
 # makes archives, packages and images, and systems in folders to try them in.

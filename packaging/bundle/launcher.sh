@@ -98,6 +98,13 @@ case $known in
 esac
 if [ -n "$folders" ]; then export LD_LIBRARY_PATH="${folders%:}${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"; fi
 
+# OpenSSL and libcurl come from Debian and look for the host's authorities where Debian keeps them. Fedora and its kin,
+# openSUSE and Arch keep them elsewhere.
+for file in /etc/ssl/certs/ca-certificates.crt /etc/pki/tls/certs/ca-bundle.crt \
+  /etc/pki/ca-trust/extracted/pem/tls-ca-bundle.pem /etc/ssl/ca-bundle.pem /etc/ssl/cert.pem; do
+  if [ -z "${SSL_CERT_FILE:-}" ] && [ -r "$file" ]; then export SSL_CERT_FILE="$file"; fi
+done
+
 # The host's fonts, and ours after them.
 export FONTCONFIG_FILE="${FONTCONFIG_FILE:-$root/share/fontconfig/fonts.conf}"
 # DCMTK reads the names and types of DICOM's attributes from here.

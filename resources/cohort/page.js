@@ -37,9 +37,17 @@
     show(card);
     count();
   };
-  const go = (card, by) => {
-    const at = cards.indexOf(card);
-    const next = cards[Math.min(cards.length - 1, Math.max(0, at + by))];
+  // The keys are for the card that had the focus last: a click beside the cards, or on a button, takes it away.
+  let current = null;
+  for (const card of cards) {
+    card.addEventListener('focusin', () => {
+      if (current) current.classList.remove('current');
+      current = card;
+      card.classList.add('current');
+    });
+  }
+  const go = (by) => {
+    const next = cards[Math.min(cards.length - 1, Math.max(0, cards.indexOf(current) + by))];
     if (next) { next.focus({ preventScroll: true }); next.scrollIntoView({ block: 'nearest' }); }
   };
   // As a table's field, and never a formula of a spreadsheet.
@@ -47,20 +55,18 @@
 
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const here = document.activeElement.closest('article');
-    const card = here || cards[0];
-    if (!card) return;
-    const act = {
-      j: () => go(here || null, 1),
-      k: () => go(card, -1),
-      a: () => { change(card, { decision: 'accept' }); go(card, 1); },
-      r: () => { change(card, { decision: 'reject' }); go(card, 1); },
+    const card = current;
+    const move = { j: () => go(1), k: () => go(-1) };
+    const decide = {
+      a: () => { change(card, { decision: 'accept' }); go(1); },
+      r: () => { change(card, { decision: 'reject' }); go(1); },
       u: () => change(card, { decision: '', comment: '' }),
       c: () => {
         const comment = prompt('Comment on ' + card.dataset.id, (decisions[card.dataset.id] || {}).comment || '');
         if (comment !== null) change(card, { comment: comment.slice(0, 1000) });
       },
-    }[event.key];
+    };
+    const act = move[event.key] || (card && decide[event.key]);
     if (act) { event.preventDefault(); act(); }
   });
   document.getElementById('save').addEventListener('click', () => {
@@ -75,6 +81,7 @@
     link.click();
     URL.revokeObjectURL(link.href);
     saved = true;
+    if (current) current.focus({ preventScroll: true });
   });
   window.addEventListener('beforeunload', (event) => { if (!saved) event.preventDefault(); });
   for (const card of cards) if (decisions[card.dataset.id]) show(card);

@@ -100,6 +100,16 @@ def check_links():
             faults.append(f"handbook/pictures is too large in {language}")
 
 
+def check_installed():
+    """What readers of an installed handbook need: files that they have, and one page for IT."""
+    for page in book.rglob("*.md"):
+        if page.name != "install.md" and "packaging/" in page.read_text():
+            faults.append(f"{page.relative_to(source)} names a file of packaging/, which is not installed")
+    for_it = re.search(r"^## A hospital's IT$.*?(?=^## )", (book / "install.md").read_text(), flags=re.M | re.S)
+    if not for_it or re.search(r"~/\.", for_it[0]) or "for-it.md#where-data-lie" not in for_it[0]:
+        faults.append("install.md: where data lie is for-it.md's to say")
+
+
 class Links(HTMLParser):
     def __init__(self, page):
         super().__init__()
@@ -159,6 +169,7 @@ def check_html(sphinx):
 check_panels()
 check_contents()
 check_links()
+check_installed()
 if len(sys.argv) > 2:
     check_html(sys.argv[2])
     collected = subprocess.run([book / "languages/collect.py", "--check", sys.argv[2]], capture_output=True, text=True)

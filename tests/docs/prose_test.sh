@@ -23,6 +23,8 @@ complain "Headers that begin with a question or a verb instead of a noun phrase:
 phrases='(is|are|was|were|be|been) told( of| about)?\b|it is told|(is|are) taken (as|for) |more than is taken|what is (told|taken|followed)'
 complain "Phrases on pages:" \
   "$(grep -nEi "$phrases" README.md CHANGELOG.md CONTRIBUTING.md packaging/man/* $(find docs handbook -name '*.md') || true)"
+# It leaves most of what tells who a patient is; `tidemark-cli deidentify` does not.
+complain "Pages that remove patients by dcmodify:" "$(grep -nE 'dcmodify -ea' ./*.md $(find docs handbook -name '*.md') || true)"
 complain "Phrases in messages:" "$(find app core document engine imaging renderer solver ui -name '*.cpp' -print0 |
   xargs -0 grep -nEi "\"[^\"]*($phrases)" || true)"
 exit "$failed"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # launcher_test.sh SOURCE: what starts the programs of the bundle (packaging/bundle/launcher.sh) chooses libraries by version,
-# passes arguments on, and puts the menu's files in place and away, in a bundle whose programs only say how they were started.
+# finds the host's authorities, passes arguments on, and puts the menu's files in place and away, in a bundle whose programs
+# only say how they were started.
 set -euo pipefail
 source=$1
 work=$(mktemp -d)
@@ -11,13 +12,13 @@ cp "$source/packaging/bundle/launcher.sh" "$root/bin/tidemark"
 ln -s tidemark "$root/bin/tidemark-cli"
 for program in tidemark tidemark-cli; do
   # shellcheck disable=SC2016  # for the program
-  printf '#!/bin/sh\necho "%s [$1] [$2] ${LD_LIBRARY_PATH:-}"\n' "$program" >"$root/libexec/$program"
+  printf '#!/bin/sh\necho "%s [$1] [$2] ${LD_LIBRARY_PATH:-} ${SSL_CERT_FILE:-}"\n' "$program" >"$root/libexec/$program"
   chmod +x "$root/libexec/$program"
 done
 cp "$source/packaging/files/tidemark.desktop" "$root/share/applications"
 cp "$source/packaging/files/tidemark.mime.xml" "$root/share/mime/packages/tidemark.xml"
 touch "$root/share/icons/hicolor/16x16/apps/tidemark.png"
-unset LD_LIBRARY_PATH
+unset LD_LIBRARY_PATH SSL_CERT_FILE
 
 fail() {
   echo "$*"
@@ -40,6 +41,21 @@ said=$(started "libstdc++.so.6 libstdc++.so.6.0.999\nlibnowhere.so.1 libnowhere.
 [[ $said == *"$root/lib/shared/libstdc++.so.6:$root/lib/shared/libnowhere.so.1"* ]] || fail "older or missing, but not ours: $said"
 ln -s "$root/bin/tidemark-cli" "$work/tidemark-cli"
 [[ $("$work/tidemark-cli" a b) == 'tidemark-cli [a] [b]'* ]] || fail "a link elsewhere starts something else"
+
+# Authorities of a host that has them where the first argument says.
+authorities() {
+  rm -rf "$work/etc"
+  mkdir -p "$work/etc/$(dirname "$1")"
+  touch "$work/etc/$1"
+  sed "s|/etc/|$work/etc/|g" "$source/packaging/bundle/launcher.sh" >"$root/bin/tidemark"
+  "$root/bin/tidemark" a b
+}
+for file in ssl/certs/ca-certificates.crt pki/tls/certs/ca-bundle.crt ssl/ca-bundle.pem; do
+  said=$(authorities "$file")
+  [[ $said == *" $work/etc/$file" ]] || fail "the host's authorities in /etc/$file are not named: $said"
+done
+said=$(SSL_CERT_FILE=/own.pem authorities ssl/certs/ca-certificates.crt)
+[[ $said == *' /own.pem' ]] || fail "the user's authorities are not named: $said"
 
 export XDG_DATA_HOME=$work/data
 "$root/bin/tidemark" --install-menu >/dev/null

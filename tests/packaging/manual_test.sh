@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# manual_test.sh TIDEMARK_CLI PAGE: the commands and options in the program's help, and those in its page of the manual,
-# are the same.
+# manual_test.sh TIDEMARK_CLI PAGE [TIDEMARK PAGE]: the commands and options in the program's help, and those in its page of
+# the manual, are the same. The desktop's page has each option of its help.
 set -euo pipefail
 cli=$1
 page=$2
+desktop=${3:-}
+desktop_page=${4:-}
 
 options_in() { grep -oE -- '--[a-z][a-z-]+' | sort -u; }
 
@@ -33,3 +35,9 @@ difference=$(diff <(echo "$in_help") <(options_in <<<"$manual")) || {
 while read -r command; do
   grep -qE -- "^\.BI? $command( |\$)" <<<"$manual" || { echo "the command $command is not in $(basename "$page")"; exit 1; }
 done <<<"$commands"
+
+[[ -n $desktop ]] || exit 0
+in_help=$(QT_QPA_PLATFORM=offscreen "$desktop" --help | options_in)
+[[ $in_help == *--diagnostics* ]] || { echo "no options found in the desktop's help"; exit 1; }
+missing=$(comm -23 <(echo "$in_help") <(sed 's/\\//g' "$desktop_page" | options_in))
+[[ -z $missing ]] || { echo "$(basename "$desktop_page") lacks:"; echo "$missing"; exit 1; }
