@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include "solver/convergence.h"
 #include "solver/model.h"
@@ -10,6 +11,10 @@ namespace tidemark::solver {
 
 class ExecutorBase : public Executor {
  public:
+  Status set_parameters(const Parameters& parameters) final { return drive(parameters, given_speed_); }
+  Status set_speed(std::shared_ptr<const SpeedFunction> speed) final {
+    return drive(parameters(), std::move(speed));
+  }
   [[nodiscard]] const Parameters& parameters() const final { return model_.parameters(); }
   [[nodiscard]] double band() const final { return model_.band(); }
   [[nodiscard]] double time_step() const final { return model_.time_step(); }
@@ -30,6 +35,8 @@ class ExecutorBase : public Executor {
   // that check() refuses or that change the band.
   [[nodiscard]] Result<Drive> drive_with(const Parameters& parameters,
                                          std::shared_ptr<const SpeedFunction> given) const;
+  // Takes drive_with(), and renews what the executor makes of it.
+  virtual Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) = 0;
   void take(Drive drive);
   // Takes the function that belongs to the present phi, where it follows the surface. The watch goes on.
   Status follow_surface();

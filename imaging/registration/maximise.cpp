@@ -42,7 +42,6 @@ constexpr unsigned kIterations = 120;
 constexpr std::int64_t kSamples = 50000;
 constexpr double kSmallestStep = 0.01;  // of the first one
 constexpr double kRelaxation = 0.7;
-constexpr double kOrthogonal = 1e-6;  // a transform from a file has rounded numbers
 
 // An ITK image over the values of a pyramid's level, which it neither copies nor owns.
 Image::Pointer wrap(const Volume& volume) {
@@ -112,7 +111,7 @@ Transform::Pointer make_transform(const glm::dmat4& to_moving, glm::dvec3 centre
     }
   }
   transform->SetCenter(itk_centre);
-  transform->SetMatrix(matrix, kOrthogonal);
+  transform->SetMatrix(matrix);
   transform->SetOffset(offset);
   return transform;
 }

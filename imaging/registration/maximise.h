@@ -13,7 +13,8 @@ struct Maximum {
   double information = 0.0;
 };
 
-// Steps begin with `step_mm` at the edge of the fixed image and end at a hundredth of it.
+// `to_moving` is a rotation and a shift. Steps begin with `step_mm` at the edge of the fixed image and end at
+// a hundredth of it.
 Result<Maximum> maximise(const Volume& moving, const Volume& fixed, const glm::dmat4& to_moving,
                          double step_mm, const Progress& progress);
 

@@ -19,17 +19,29 @@ namespace {
 // The part of the work that makes both pyramids.
 constexpr double kPyramidsPart = 0.1;
 
-// Where the search begins, from the fixed image to the moving one.
-glm::dmat4 first_guess(const Geometry& moving, const Geometry& fixed, const glm::dmat4& start) {
+// The numbers of a transform from a file may be rounded; the search takes rotations alone.
+glm::dmat4 without_rounding(const glm::dmat4& rigid) {
+  const glm::dvec3 x = glm::normalize(glm::dvec3(rigid[0]));
+  const glm::dvec3 z = glm::normalize(glm::cross(x, glm::dvec3(rigid[1])));
+  return {glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), rigid[3]};
+}
+
+// Where the search begins.
+struct Guess {
+  glm::dmat4 to_moving;  // from the fixed image
+  bool is_start;         // otherwise the centres are put on one another
+};
+
+Guess first_guess(const Geometry& moving, const Geometry& fixed, const glm::dmat4& start) {
   const glm::dmat4 to_moving = glm::inverse(start);
   const glm::dvec3 of_moving = registration::centre_mm(moving);
   const glm::dvec3 of_fixed = registration::centre_mm(fixed);
   const glm::dvec3 there(to_moving * glm::dvec4(of_fixed, 1.0));
   const glm::dvec3 here(start * glm::dvec4(of_moving, 1.0));
-  if (moving.covers(there) || fixed.covers(here)) return to_moving;
+  if (moving.covers(there) || fixed.covers(here)) return {to_moving, true};
   glm::dmat4 centred = to_moving;
   centred[3] += glm::dvec4(of_moving - there, 0.0);
-  return centred;
+  return {centred, false};
 }
 
 Status require_contrast(const Volume& image, const char* which) {
@@ -70,8 +82,8 @@ Result<Registration> run(const Volume& moving, const Volume& fixed, const glm::d
 
   const Progress search = between(progress, kPyramidsPart, 1.0);
   const auto levels = static_cast<int>(std::size(registration::kLevelsMm));
-  const glm::dmat4 guess = first_guess(moving.geometry, fixed.geometry, start);
-  glm::dmat4 to_moving = guess;
+  const Guess guess = first_guess(moving.geometry, fixed.geometry, without_rounding(start));
+  glm::dmat4 to_moving = guess.to_moving;
   double after = 0.0;
   for (int level = 0; level < levels; ++level) {
     const auto index = static_cast<std::size_t>(level);
@@ -84,10 +96,13 @@ Result<Registration> run(const Volume& moving, const Volume& fixed, const glm::d
   }
   Registration result = describe_rigid(glm::inverse(to_moving), registration::centre_mm(moving.geometry));
   result.information_after = after;
-  // On the same level and the same samples as the end.
-  const auto before = registration::information(moving_levels->back(), fixed_levels->back(), guess);
-  if (!before) return pass_on(before);
-  result.information_before = *before;
+  if (guess.is_start) {
+    // On the same level and the same samples as the end.
+    const auto before =
+        registration::information(moving_levels->back(), fixed_levels->back(), guess.to_moving);
+    if (!before) return pass_on(before);
+    result.information_before = *before;
+  }
   progress(1.0, "registering");
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "core/progress.h"
 #include "core/volume.h"
@@ -16,17 +17,17 @@ struct Registration {
   double rotation_degrees = 0.0;
   glm::dvec3 translation_mm{0.0};
   // Mattes' mutual information at the start and at the end. More is better; it compares within one pair
-  // alone.
-  double information_before = 0.0;
+  // alone. None at a start from which the search did not begin.
+  std::optional<double> information_before;
   double information_after = 0.0;
 };
 
 // Maximises the mutual information of the images (Mattes et al., IEEE TMI 22:120, 2003; ITK) over turns about
 // the fixed image's centre and shifts, from coarse to fine in mm. The search begins at `start`, likewise from
 // moving to fixed; where neither image's centre then lies in the other image, at their centres on one
-// another. The same images give the same bits, whatever the number of threads. Fails (ErrorKind::usage),
-// naming the grids, when the images share too little space, or one of them has a single value or a single
-// slice.
+// another. The numbers of `start` may be rounded. The same images give the same bits, whatever the number of
+// threads. Fails (ErrorKind::usage), naming the grids, when the images share too little space, or one of them
+// has a single value or a single slice.
 Result<Registration> register_rigidly(const Volume& moving, const Volume& fixed,
                                       const glm::dmat4& start = glm::dmat4(1.0),
                                       const Progress& progress = {});

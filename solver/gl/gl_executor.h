@@ -15,10 +15,6 @@ namespace tidemark::solver {
 class GlExecutor : public ExecutorBase {
  public:
   Status restore(const Field& phi) final;
-  Status set_parameters(const Parameters& parameters) final { return drive(parameters, given_speed_); }
-  Status set_speed(std::shared_ptr<const SpeedFunction> speed) final {
-    return drive(parameters(), std::move(speed));
-  }
   Status set_constraints(std::shared_ptr<const Constraints> constraints) final;
 
  protected:
@@ -67,7 +63,7 @@ class GlExecutor : public ExecutorBase {
   std::int64_t peak_bytes_ = 0;
 
  private:
-  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
+  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) final;
   Status use_constraints(std::shared_ptr<const Constraints> constraints, const Field& phi);
   // `textures`: what drives the surface would take so many bytes.
   [[nodiscard]] Status check_budget(std::int64_t textures) const;

@@ -93,14 +93,6 @@ Status HostExecutor::drive(const Parameters& parameters, std::shared_ptr<const S
   return {};
 }
 
-Status HostExecutor::set_parameters(const Parameters& parameters) {
-  return drive(parameters, given_speed_);
-}
-
-Status HostExecutor::set_speed(std::shared_ptr<const SpeedFunction> speed) {
-  return drive(parameters(), std::move(speed));
-}
-
 Status HostExecutor::set_constraints(std::shared_ptr<const Constraints> constraints) {
   if (constraints != nullptr) {
     TIDEMARK_TRY(check_fits(*constraints));

@@ -31,8 +31,6 @@ class HostExecutor final : public ExecutorBase {
   Status restore(const Field& phi) override;
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
-  Status set_parameters(const Parameters& parameters) override;
-  Status set_speed(std::shared_ptr<const SpeedFunction> speed) override;
   Status set_constraints(std::shared_ptr<const Constraints> constraints) override;
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
@@ -45,13 +43,11 @@ class HostExecutor final : public ExecutorBase {
   [[nodiscard]] bool page_view(PageView& view) const override;
   [[nodiscard]] Status validate() const override;
 
-  [[nodiscard]] const std::string& instruction_set() const { return kernels_.name; }
-
  private:
   HostExecutor(std::shared_ptr<const Volume> source, const Parameters& parameters,
                const ExecutorOptions& options, PageKernels kernels);
 
-  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
+  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) override;
   void step();
   // Steps go through the pages there and back: of a surface that is larger than the cache, a step finds there
   // what the last one left.

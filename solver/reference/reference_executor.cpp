@@ -128,14 +128,6 @@ Status ReferenceExecutor::drive(const Parameters& parameters, std::shared_ptr<co
   return {};
 }
 
-Status ReferenceExecutor::set_parameters(const Parameters& parameters) {
-  return drive(parameters, given_speed_);
-}
-
-Status ReferenceExecutor::set_speed(std::shared_ptr<const SpeedFunction> speed) {
-  return drive(parameters(), std::move(speed));
-}
-
 Status ReferenceExecutor::set_constraints(std::shared_ptr<const Constraints> constraints) {
   if (constraints != nullptr) {
     TIDEMARK_TRY(check_fits(*constraints));

@@ -18,8 +18,6 @@ class ReferenceExecutor final : public ExecutorBase {
   Status restore(const Field& phi) override;
   [[nodiscard]] Result<Field> snapshot() const override;
   Status paint(const Sphere& sphere, Brush brush) override;
-  Status set_parameters(const Parameters& parameters) override;
-  Status set_speed(std::shared_ptr<const SpeedFunction> speed) override;
   Status set_constraints(std::shared_ptr<const Constraints> constraints) override;
   Result<AdvanceReport> advance(const Advance& run) override;
   [[nodiscard]] MemoryReport memory() const override;
@@ -36,7 +34,7 @@ class ReferenceExecutor final : public ExecutorBase {
   void step();
   void begin_window();
   void measure(Index3 voxel, double phi, double near);
-  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given);
+  Status drive(const Parameters& parameters, std::shared_ptr<const SpeedFunction> given) override;
   void evaluate_speed();
   [[nodiscard]] double constrained(Index3 voxel, double phi) const;
   void constrain();

@@ -140,12 +140,18 @@ void Constraints::set(const Geometry& geometry, const Sphere& sphere, Constraint
 }
 
 void Constraints::set(const std::vector<Index3>& voxels, Constraint what) {
+  std::int64_t number = -1;  // of the page that is being changed: neighbours are mostly in one
+  Page values{};
   for (const Index3& voxel : voxels) {
     const VirtualAddress address = layout_.translate(voxel);
-    Page values = copy_of(address.page);
+    if (address.page != number) {
+      if (number >= 0) set_page(number, values);
+      number = address.page;
+      values = copy_of(number);
+    }
     values[static_cast<std::size_t>(address.offset)] = what;
-    set_page(address.page, values);
   }
+  if (number >= 0) set_page(number, values);
 }
 
 void constrain(Field& phi, const Constraints& constraints) {

@@ -1,4 +1,6 @@
 // A map that was made elsewhere, such as a neural network's probabilities, as D.
+#include "solver/speed/image_speed.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,12 +40,6 @@ class ImageSpeed final : public SpeedFunction {
   double shift_;
 };
 
-// The smallest value. Fails on NaN, naming the voxel.
-Result<float> smallest(const Volume& map) {
-  TIDEMARK_TRY(require_finite(map, "the map of the speed function image"));
-  return map.range().first;
-}
-
 // Fails on values outside of [low, 1], naming the first voxel.
 Status check_values(const Volume& map, float low) {
   return with_type(map, [&](const auto& typed) -> Status {
@@ -71,15 +67,18 @@ Result<std::shared_ptr<const SpeedFunction>> make_image(const SpeedInputs& input
                 "the map of the speed function image has {} x {} x {} voxels, the volume has {} x {} x {}",
                 size.x, size.y, size.z, grid.x, grid.y, grid.z);
   }
-  auto low = smallest(map);
-  if (!low) return pass_on(low);
+  TIDEMARK_TRY(require_finite(map, "the map of the speed function image"));
   const auto form = std::lround(values.at("form"));
-  const bool has_speed = form == is_speed || (form == by_values && *low < -kRounding);
+  const bool has_speed = form == is_speed || (form == by_values && holds_speed(map));
   TIDEMARK_TRY(check_values(map, has_speed ? -1.0F : 0.0F));
   return std::make_shared<ImageSpeed>(inputs.map, has_speed ? 1.0 : 2.0, has_speed ? 0.0 : -1.0);
 }
 
 }  // namespace
+
+bool holds_speed(const Volume& map) {
+  return map.range().first < -kRounding;
+}
 
 const SpeedKind& image_kind() {
   static const SpeedKind kind{

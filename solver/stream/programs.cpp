@@ -64,16 +64,4 @@ Status RegionPasses::compile_step(gpu::Device& device, const GeometryEngine& geo
   return {};
 }
 
-std::vector<std::pair<const char*, const gpu::Program*>> RegionPasses::programs() const {
-  return {{"derivatives, interior", &derivatives_[0]},
-          {"derivatives, edges", &derivatives_[1]},
-          {"derivatives, corners", &derivatives_[2]},
-          {"speeds", &speeds_},
-          {"update", &update_},
-          {"neighbours", &neighbours_},
-          {"page_message", &page_message_},
-          {"motion, blocks", &motion_blocks_},
-          {"motion, pages", &motion_pages_}};
-}
-
 }  // namespace tidemark::solver

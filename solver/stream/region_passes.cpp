@@ -50,15 +50,6 @@ std::vector<RegionPasses::Region> RegionPasses::regions(std::int64_t pages, std:
   return regions;
 }
 
-std::int64_t RegionPasses::pooled_bytes() const {
-  std::int64_t bytes = 0;
-  for (const gpu::Texture2D* texture :
-       {&upwind_, &central_, &second_, &mixed_, &speed_terms_, &blocks_, &in_slice_, &slices_, &message_}) {
-    bytes += texture->bytes();
-  }
-  return bytes;
-}
-
 // How many pages of intermediate buffers a list needs; as many as there are while these do.
 std::int64_t RegionPasses::pool_size(std::int64_t pages, std::int64_t largest, std::int64_t present) {
   const auto wanted = static_cast<std::int64_t>(std::bit_ceil(

@@ -53,11 +53,6 @@ class RegionPasses {
   Status paint(gpu::Device& device, const GeometryEngine& geometry, const PhysicalMemory& memory,
                std::span<const float> values, gpu::Blending blending) const;
 
-  // The names and programs of the solver's passes, for tests.
-  [[nodiscard]] std::vector<std::pair<const char*, const gpu::Program*>> programs() const;
-
-  [[nodiscard]] std::int64_t pooled_bytes() const;
-
  private:
   struct Region {
     std::int64_t first;

@@ -38,9 +38,6 @@ class StreamExecutor final : public GlExecutor {
   [[nodiscard]] Result<PassRecord> record_step(std::int64_t page) override;
   [[nodiscard]] Status validate() const override;
 
-  [[nodiscard]] std::int64_t pooled_bytes() const { return passes_.pooled_bytes(); }
-  [[nodiscard]] const RegionPasses& passes() const { return passes_; }
-
  private:
   StreamExecutor(std::shared_ptr<gpu::Device> device, std::shared_ptr<const Volume> source,
                  const Parameters& parameters, const ExecutorOptions& options);

@@ -1,6 +1,7 @@
 // The speed function `examples`: features, the forest, and what it makes of strokes.
 #include <cmath>
 #include <latch>
+#include <limits>
 #include <random>
 #include <thread>
 
@@ -91,7 +92,11 @@ class ExamplesTest : public QObject {
   void deviation_is_that_of_noise();
   void moments_are_small_and_exact_data();
   void moments_are_small_and_exact();
+  void features_follow_the_units_of_values_and_lengths_data();
+  void features_follow_the_units_of_values_and_lengths();
   void features_have_the_same_bits_in_every_box();
+  void a_value_that_overflows_reaches_the_same_voxels_in_every_box();
+  void what_is_no_number_goes_the_same_way_in_training_and_in_every_box();
   void speed_has_the_same_bits_in_every_box_and_every_training();
   void textures_that_no_tent_separates_are_separated();
   void doubt_is_the_entropy_of_the_probability();
@@ -208,6 +213,103 @@ void ExamplesTest::features_have_the_same_bits_in_every_box() {
       QCOMPARE(in_box[(f + 1) * static_cast<std::size_t>(box.voxels()) - 1], alone[f]);
     }
   }
+}
+
+// Their powers grow beyond a float, or vanish, where one does not watch out.
+void ExamplesTest::features_follow_the_units_of_values_and_lengths_data() {
+  QTest::addColumn<double>("step");
+  QTest::addColumn<double>("spacing_mm");
+  QTest::newRow("counts in voxels of a micrometre") << 0x1p15 << 0x1p-10;
+  QTest::newRow("the largest gradients") << 0x1p24 << 0x1p-16;
+  QTest::newRow("small numbers") << 0x1p-20 << 1.0;
+}
+
+void ExamplesTest::features_follow_the_units_of_values_and_lengths() {
+  QFETCH(const double, step);
+  QFETCH(const double, spacing_mm);
+  constexpr VoxelBox kRow{{12, 12, 12}, {16, 1, 1}};
+  const auto of_an_edge = [&](double values, double lengths) {
+    const auto volume =
+        volume_of({40, 24, 24}, glm::dvec3(lengths), [&](glm::dvec3 p) { return p.x < 20.0 ? 0.0 : values; });
+    const auto features = Features::of({volume}, {}).value();
+    std::vector<float> found(static_cast<std::size_t>(features.count() * kRow.voxels()));
+    features.evaluate(kRow, found.data());
+    return found;
+  };
+  const std::vector<float> plain = of_an_edge(1.0, 1.0);
+  const std::vector<float> found = of_an_edge(step, spacing_mm);
+  const double a_mm = step / spacing_mm;
+  const double a_mm2 = a_mm / spacing_mm;
+  const double units[kNodeFeatures] = {step, step, a_mm, a_mm2, a_mm2, a_mm2, a_mm, a_mm, a_mm};
+  for (int f = 0; f < 5 * kNodeFeatures; ++f) {
+    const double unit = units[f % kNodeFeatures];
+    for (std::int64_t i = 0; i < kRow.voxels(); ++i) {
+      const auto at = static_cast<std::size_t>(f * kRow.voxels() + i);
+      // What is not a number is not below anything.
+      QVERIFY2(std::abs(found[at] / unit - plain[at]) <= 1e-5,
+               qPrintable(QStringLiteral("feature %1 of voxel %2: %3, not %4")
+                              .arg(f)
+                              .arg(i)
+                              .arg(found[at] / unit)
+                              .arg(plain[at])));
+    }
+  }
+}
+
+void ExamplesTest::a_value_that_overflows_reaches_the_same_voxels_in_every_box() {
+  const auto volume = std::make_shared<Volume>(*two_textures());
+  constexpr Index3 kFar(31, 26, 22);
+  std::get<std::vector<float>>(volume->voxels)[static_cast<std::size_t>(number_in(kGrid, kFar))] = 1e38F;
+  const auto features = Features::of({volume}, {});
+  QCOMPARE(failure(features), QString());
+  const auto count = static_cast<std::size_t>(features->count());
+  for (int axis = 0; axis < 3; ++axis) {
+    VoxelBox line{kFar, Index3(1)};
+    line.first[axis] -= 12;
+    line.size[axis] = 20;
+    std::vector<float> in_line(count * 20);
+    features->evaluate(line, in_line.data());
+    for (std::size_t i = 0; i < 20; ++i) {
+      Index3 voxel = line.first;
+      voxel[axis] += static_cast<std::int64_t>(i);
+      std::vector<float> alone(count);
+      features->evaluate({voxel, Index3(1)}, alone.data());
+      for (std::size_t f = 0; f < count; ++f) {
+        const float here = in_line[f * 20 + i];
+        const bool same = here == alone[f] || (std::isnan(here) && std::isnan(alone[f]));
+        QVERIFY2(same, qPrintable(QStringLiteral("feature %1 of voxel %2 along axis %3: %4, alone %5")
+                                      .arg(f)
+                                      .arg(i)
+                                      .arg(axis)
+                                      .arg(here)
+                                      .arg(alone[f])));
+      }
+    }
+  }
+}
+
+void ExamplesTest::what_is_no_number_goes_the_same_way_in_training_and_in_every_box() {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  Samples samples{1, {}, {}};
+  for (int i = 0; i < 100; ++i) {
+    samples.values.push_back(i < 50 ? static_cast<float>(i) : kNone);
+    samples.inside.push_back(i < 50 ? 1 : 0);
+  }
+  const auto forest = train(samples, {}, {});
+  QCOMPARE(failure(forest), QString());
+  const auto inside = [&](std::vector<float> values) {
+    std::vector<double> found(values.size());
+    ForestEvaluator(*forest).evaluate(values.data(), 1, std::ssize(values), found.data());
+    return found;
+  };
+  const double none = inside({kNone}).front();
+  QVERIFY2(none < 0.3, qPrintable(QString::number(none)));
+  const double least = inside({0.0F}).front();
+  QVERIFY2(least > 0.75, qPrintable(QString::number(least)));
+  QVERIFY(inside({0.0F, kNone}) == (std::vector<double>{least, none}));
+  QVERIFY(inside({kNone, 0.0F}) == (std::vector<double>{none, least}));
+  QVERIFY(inside({0.0F, kNone, 0.0F}) == (std::vector<double>{least, none, least}));
+  QCOMPARE(inside({60.0F, kNone, 70.0F})[1], none);
 }
 
 void ExamplesTest::speed_has_the_same_bits_in_every_box_and_every_training() {

@@ -26,6 +26,11 @@ BetweenNodes between_nodes(const std::vector<std::int64_t>& voxels, std::int64_t
   return result;
 }
 
+// A voxel on a node is that node: the next one may be in the reach, or no number.
+inline float between(float here, float next, float weight) {
+  return weight == 0.0F ? here : here + weight * (next - here);
+}
+
 // Trilinear, for one feature: nodes' values to those of the box's voxels.
 void interpolate(const float* nodes, Index3 size, const std::array<BetweenNodes, 3>& at,
                  std::vector<float>& row, float* voxels) {
@@ -39,13 +44,11 @@ void interpolate(const float* nodes, Index3 size, const std::array<BetweenNodes,
       const float wy = at[1].weight[y];
       const float wz = at[2].weight[z];
       for (std::int64_t x = 0; x < size.x; ++x) {
-        const float near = a[x] + wy * (b[x] - a[x]);
-        const float far = c[x] + wy * (d[x] - c[x]);
-        row[static_cast<std::size_t>(x)] = near + wz * (far - near);
+        row[static_cast<std::size_t>(x)] = between(between(a[x], b[x], wy), between(c[x], d[x], wy), wz);
       }
       for (std::size_t x = 0; x < at[0].node.size(); ++x) {
         const float* pair = row.data() + at[0].node[x];
-        *voxels++ = pair[0] + at[0].weight[x] * (pair[1] - pair[0]);
+        *voxels++ = between(pair[0], pair[1], at[0].weight[x]);
       }
     }
   }

@@ -1,6 +1,8 @@
 #include "solver/speed/examples/forest.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace tidemark::solver {
@@ -14,12 +16,14 @@ void ForestEvaluator::evaluate(const float* features, int feature_count, std::in
     const float* values = features + f * count;
     float low = values[0];
     float high = values[0];
+    bool numbers = !std::isnan(values[0]);
     for (std::int64_t i = 1; i < count; ++i) {
       low = values[i] < low ? values[i] : low;
       high = values[i] > high ? values[i] : high;
+      numbers &= !std::isnan(values[i]);
     }
     low_[static_cast<std::size_t>(f)] = low;
-    high_[static_cast<std::size_t>(f)] = high;
+    high_[static_cast<std::size_t>(f)] = numbers ? high : std::numeric_limits<float>::quiet_NaN();
   }
   if (samples_.empty()) samples_.emplace_back();
   samples_[0].resize(static_cast<std::size_t>(count));
@@ -62,7 +66,7 @@ void ForestEvaluator::descend(std::int32_t index, std::int64_t begin, std::int64
   std::int64_t right = end - 1;
   for (std::int64_t i = begin; i < end; ++i) {
     const std::uint16_t sample = samples[i];
-    const bool goes_right = values[sample] > node->threshold;
+    const bool goes_right = !(values[sample] <= node->threshold);
     sorted[left] = sample;
     sorted[right] = goes_right ? sample : sorted[right];
     left += goes_right ? 0 : 1;

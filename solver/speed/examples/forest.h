@@ -12,7 +12,7 @@ inline constexpr std::int32_t kCertain = 1 << 16;
 
 struct TreeNode {
   std::int32_t feature = -1;  // -1: a leaf
-  float threshold = 0.0F;     // above it a sample goes right
+  float threshold = 0.0F;     // at or below it a sample goes left; what is no number goes right
   std::int32_t right = 0;     // in the tree's forest; the left one is the next node
   std::int32_t inside = 0;    // of a leaf: probability times kCertain
 };

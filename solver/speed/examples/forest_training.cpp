@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/thread_pool.h"
@@ -109,8 +110,8 @@ class TreeBuilder {
     for (int attempt = 0; attempt < 4 * tried_ && tried < tried_; ++attempt) {
       const int candidate = random_.below(samples_.features);
       const float* values = feature(candidate);
-      float low = values[order_[index(begin)]];
-      float high = low;
+      float low = std::numeric_limits<float>::infinity();
+      float high = -low;
       for (std::int64_t i = begin; i < end; ++i) {
         low = std::min(low, values[order_[index(i)]]);
         high = std::max(high, values[order_[index(i)]]);

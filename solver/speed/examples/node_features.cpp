@@ -1,7 +1,10 @@
 #include "solver/speed/examples/node_features.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace tidemark::solver {
 namespace {
@@ -15,25 +18,41 @@ struct Eigenvalues {
   float smallest;
 };
 
+// The power of two at or below a number of 0 or more, and at least the least normal number.
+inline float power_of_two(float number) {
+  constexpr std::uint32_t kExponent = 0x7F800000U;
+  const float power = std::bit_cast<float>(std::bit_cast<std::uint32_t>(number) & kExponent);
+  return std::max(power, std::numeric_limits<float>::min());
+}
+
 // In closed form: with q the mean and p the deviation of the eigenvalues they are q + 2 p cos(a) for three
 // angles a = acos(r) / 3 + 2 pi n / 3. Its cosine and sine are polynomials of s = cos(acos(r) / 2), right to
-// 1e-5, so that the result has the same bits with every library of mathematics.
+// 1e-5, so that the result has the same bits with every library of mathematics. The elements less q are taken
+// in a unit near the largest of them: p to the third fits into a float for images of any unit.
 inline Eigenvalues eigenvalues(float a, float b, float c, float d, float e, float f) {
   const float q = (a + b + c) * (1.0F / 3.0F);
-  const float x = a - q;
-  const float y = b - q;
-  const float z = c - q;
+  const float across = std::max(std::abs(d), std::max(std::abs(e), std::abs(f)));
+  const float along = std::max(std::abs(a - q), std::max(std::abs(b - q), std::abs(c - q)));
+  const float unit = power_of_two(std::max(along, across));
+  const float scale = 1.0F / unit;
+  const float x = (a - q) * scale;
+  const float y = (b - q) * scale;
+  const float z = (c - q) * scale;
+  d *= scale;
+  e *= scale;
+  f *= scale;
   const float squares = (x * x + y * y + z * z) + 2.0F * (d * d + e * e + f * f);
   const float p = std::sqrt(squares * (1.0F / 6.0F));
   const float determinant = x * (y * z - f * f) - d * (d * z - f * e) + e * (d * f - y * e);
-  const float r = determinant / (2.0F * p * p * p + 1e-30F);
+  const float r = determinant / (2.0F * p * p * p + 1e-30F);  // 0 where all are 0
   const float half = std::min(std::max(0.5F + 0.5F * r, 0.0F), 1.0F);
   const float s = std::sqrt(half);
   const float cosine = 0.5000106F + s * (0.5768125F + s * (-0.1064940F + s * (0.0383529F - s * 0.0086884F)));
   const float sine = std::sqrt(1.0F - s) *
                      (0.8660293F + s * (0.0994833F + s * (-0.0326710F + s * (0.0130074F - s * 0.0030422F))));
-  const float largest = q + 2.0F * p * cosine;
-  const float smallest = q - p * (cosine + 1.7320508F * sine);
+  const float spread = p * unit;
+  const float largest = q + 2.0F * spread * cosine;
+  const float smallest = q - spread * (cosine + 1.7320508F * sine);
   return {largest, 3.0F * q - largest - smallest, smallest};
 }
 

@@ -48,7 +48,8 @@ class RegistrationStudiesTest : public QObject {
     QVERIFY(ct && ct_tumour && other && tumour);
     const auto found = imaging::register_rigidly(*other, *ct);
     QCOMPARE(test::failure(found), QString());
-    QVERIFY(found->information_after >= found->information_before);
+    QVERIFY(found->information_before);
+    QVERIFY(found->information_after >= *found->information_before);
     const auto placed = imaging::resample(*tumour, found->to_fixed, ct->geometry, "tumour");
     QCOMPARE(test::failure(placed), QString());
     Mask mask{ct->geometry, {}};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "imaging/phantom/phantom.h"
 #include "imaging/resample.h"
@@ -46,7 +47,8 @@ class RegistrationTest : public QObject {
     QVERIFY2(glm::length(miss.translation_mm) < 0.5,
              qPrintable(QString::number(glm::length(miss.translation_mm))));
     QVERIFY(std::abs(found->rotation_degrees - 8.0) < 0.5);
-    QVERIFY(found->information_after > found->information_before);
+    QVERIFY(found->information_before);
+    QVERIFY(found->information_after > *found->information_before);
   }
 
   // The information is in how values go together, not in the values.
@@ -74,6 +76,19 @@ class RegistrationTest : public QObject {
     const imaging::Registration miss = test::miss(*found, all, head_.geometry);
     QVERIFY(miss.rotation_degrees < 0.5);
     QVERIFY(glm::length(miss.translation_mm) < 0.5);
+    QVERIFY(!found->information_before);  // the search did not begin there
+  }
+
+  void a_start_with_rounded_numbers_is_taken() {
+    const glm::dmat4 transform = test::turned(head_.geometry, 8.0, 12.0);
+    glm::dmat4 start = glm::inverse(transform);
+    for (int column = 0; column < 3; ++column) start[column] = glm::round(start[column] * 1e3) / 1e3;
+    const auto found = imaging::register_rigidly(moved(head_, transform), head_, start);
+    QCOMPARE(test::failure(found), QString());
+    const imaging::Registration miss = test::miss(*found, transform, head_.geometry);
+    QVERIFY(miss.rotation_degrees < 0.5);
+    QVERIFY(glm::length(miss.translation_mm) < 0.5);
+    QVERIFY(found->information_before);
   }
 
   void the_same_images_give_the_same_bits() {
