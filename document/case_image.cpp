@@ -13,16 +13,22 @@ VoxelsOnGrid& VoxelsOnGrid::operator=(const VoxelsOnGrid& other) {
   return *this;
 }
 
-Result<std::shared_ptr<const Volume>> on_grid(const CaseImage& image, const Geometry& grid) {
+Result<std::shared_ptr<const imaging::Resampled>> resampled(const CaseImage& image, const Geometry& grid) {
   if (image.volume == nullptr) return fail(ErrorKind::usage, "the image \"{}\" is missing", image.name);
   const VoxelsOnGrid& kept = image.voxels_on_grid;
   const std::lock_guard lock(kept.mutex_);
-  if (kept.voxels_ == nullptr || !(kept.voxels_->geometry == grid)) {
-    auto resampled = imaging::resample(*image.volume, image.to_case, grid, image.name);
-    if (!resampled) return pass_on(resampled);
-    kept.voxels_ = std::make_shared<const Volume>(std::move(resampled->volume));
+  if (kept.voxels_ == nullptr || !(kept.voxels_->volume.geometry == grid)) {
+    auto voxels = imaging::resample(*image.volume, image.to_case, grid, image.name);
+    if (!voxels) return pass_on(voxels);
+    kept.voxels_ = std::make_shared<const imaging::Resampled>(std::move(*voxels));
   }
   return kept.voxels_;
+}
+
+Result<std::shared_ptr<const Volume>> on_grid(const CaseImage& image, const Geometry& grid) {
+  const auto voxels = resampled(image, grid);
+  if (!voxels) return pass_on(voxels);
+  return std::shared_ptr<const Volume>(*voxels, &(*voxels)->volume);
 }
 
 }  // namespace tidemark::document

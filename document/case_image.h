@@ -11,11 +11,15 @@
 #include "core/volume.h"
 #include "imaging/grid_policy.h"
 
+namespace tidemark::imaging {
+struct Resampled;
+}
+
 namespace tidemark::document {
 
 struct CaseImage;
 
-// The voxels of an image on the grid of its case, kept from when they were first asked for.
+// An image on the grid of its case, kept from when it was first asked for.
 class VoxelsOnGrid {
  public:
   VoxelsOnGrid() = default;
@@ -24,10 +28,11 @@ class VoxelsOnGrid {
   VoxelsOnGrid& operator=(const VoxelsOnGrid& other);
 
  private:
-  friend Result<std::shared_ptr<const Volume>> on_grid(const CaseImage& image, const Geometry& grid);
+  friend Result<std::shared_ptr<const imaging::Resampled>> resampled(const CaseImage& image,
+                                                                     const Geometry& grid);
 
   mutable std::mutex mutex_;
-  mutable std::shared_ptr<const Volume> voxels_;
+  mutable std::shared_ptr<const imaging::Resampled> voxels_;
 };
 
 // It is never overwritten: views and speed functions see it resampled. One that a recipe or a session names
@@ -46,9 +51,11 @@ struct CaseImage {
   VoxelsOnGrid voxels_on_grid;
 };
 
-// The image as speed functions see it. Any thread; the first call takes a while and is not cancelled, because
-// all that follow have its outcome. Fails (ErrorKind::usage) when the volume is missing, or shares no place
-// with the grid.
+// The image on the grid, and which voxels it covers there. Any thread; the first call takes a while and is
+// not cancelled, because all that follow have its outcome. Fails (ErrorKind::usage) when the volume is
+// missing, or shares no place with the grid.
+Result<std::shared_ptr<const imaging::Resampled>> resampled(const CaseImage& image, const Geometry& grid);
+// The same as speed functions see it: with the image's minimum in voxels that it does not cover.
 Result<std::shared_ptr<const Volume>> on_grid(const CaseImage& image, const Geometry& grid);
 
 }  // namespace tidemark::document

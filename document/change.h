@@ -1,11 +1,13 @@
 // A change of a case as an entry of its history: what it was, and the way back and forward again.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 
 #include "core/result.h"
+#include "document/drive.h"
 #include "solver/field.h"
 #include "solver/parameters.h"
 
@@ -35,6 +37,7 @@ enum class ChangeKind {
   finish,  // labels, by a tool
   label_brush,
 };
+inline constexpr std::size_t kChangeKinds = static_cast<std::size_t>(ChangeKind::label_brush) + 1;
 // The surface is the same before it and after it.
 [[nodiscard]] bool is_of_labels(ChangeKind kind);
 
@@ -53,7 +56,7 @@ struct Steering {
   bool begun = false;     // there is a surface
   std::int64_t step = 0;  // since the start
   solver::Parameters parameters;
-  std::string drive = "tent";                          // as document::describe()
+  DriveSummary drive;
   std::shared_ptr<const solver::Field> phi = nullptr;  // null: a change goes on
 
   bool operator==(const Steering&) const = default;

@@ -75,6 +75,16 @@ bool uses_images(const solver::SpeedSetting& setting) {
   return solver::any_has(setting, &solver::SpeedKind::uses_images);
 }
 
+DriveSummary summary_of(const Drive& drive) {
+  DriveSummary summary;
+  summary.setting = drive.setting;
+  if (drive.constraints != nullptr) {
+    summary.has_walls = drive.constraints->count(solver::Constraint::wall) > 0;
+    summary.has_anchors = drive.constraints->count(solver::Constraint::anchor) > 0;
+  }
+  return summary;
+}
+
 std::string describe(const Drive& drive) {
   std::string text;
   for (const solver::SpeedTerm& term : drive.setting.terms)
@@ -82,9 +92,9 @@ std::string describe(const Drive& drive) {
   if (drive.setting.terms.size() > 1) {
     text = (drive.setting.combine == solver::Combine::least ? "the least of " : "the product of ") + text;
   }
-  if (drive.constraints == nullptr) return text;
-  if (drive.constraints->count(solver::Constraint::wall) > 0) text += ", walls";
-  if (drive.constraints->count(solver::Constraint::anchor) > 0) text += ", anchors";
+  const DriveSummary summary = summary_of(drive);
+  if (summary.has_walls) text += ", walls";
+  if (summary.has_anchors) text += ", anchors";
   return text;
 }
 
@@ -96,7 +106,7 @@ Result<std::shared_ptr<const solver::SpeedFunction>> make_speed(const Drive& dri
   inputs.source = std::move(source);
   inputs.parameters = parameters;
   inputs.strokes = drive.strokes;
-  if (drive.map != nullptr) {
+  if (drive.map != nullptr && solver::any_has(drive.setting, &solver::SpeedKind::needs_map)) {
     if (drive.map->volume == nullptr)
       return fail(ErrorKind::usage, "the map \"{}\" is missing", drive.map->name);
     inputs.map = drive.map->volume;

@@ -24,6 +24,7 @@ struct SpeedMap {
   std::string checksum;
   std::shared_ptr<const Volume> volume;  // on the case's grid
   std::filesystem::path path;            // where it is found again; empty: not known
+  std::string frame_of_reference_uid = {};
 };
 
 // A value: parts are shared, and never change.
@@ -45,6 +46,15 @@ struct Drive {
 [[nodiscard]] std::shared_ptr<const Drive> shared(const Drive& drive);
 // Of strokes, walls and anchors in memory.
 [[nodiscard]] std::int64_t bytes_of(const Drive& drive);
+// What drives and holds a level set, without all that it is made from.
+struct DriveSummary {
+  solver::SpeedSetting setting;
+  bool has_walls = false;
+  bool has_anchors = false;
+
+  bool operator==(const DriveSummary&) const = default;
+};
+[[nodiscard]] DriveSummary summary_of(const Drive& drive);
 // Whether executors are as without any drive: the tent alone, and nothing that holds the surface.
 [[nodiscard]] bool is_plain(const Drive& drive);
 // Whether a tent takes part: T and epsilon count then.
@@ -55,7 +65,7 @@ struct Drive {
 [[nodiscard]] bool same_speed(const Drive& a, const Drive& b);
 // Whether phi is the same with these constraints at once as with `earlier` ones first and then these.
 [[nodiscard]] bool cover(const Drive& drive, const Drive& earlier);
-// "tent", "least of examples and edges", "examples, walls"
+// In English, for the command line: "tent", "the least of examples and edges", "examples, walls".
 [[nodiscard]] std::string describe(const Drive& drive);
 
 // The speed function; null: the tent alone. `source` is the volume as the level set sees it. Fails

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <span>
 
 #include "core/checked.h"
-#include "core/index_walk.h"
+#include "document/constraints_json.h"
 #include "document/file_limits.h"
 #include "document/packed_bytes.h"
 #include "solver/speed/speed_registry.h"
@@ -77,38 +78,17 @@ solver::Strokes read_strokes(const JsonField& field, std::int64_t voxels) {
   return strokes;
 }
 
-Json packed_voxels(const solver::Constraints& constraints, solver::Constraint what) {
-  const Index3 size = constraints.layout().domain_size();
-  std::vector<std::uint8_t> voxels;
-  voxels.reserve(static_cast<std::size_t>(size.x * size.y * size.z));
-  for_each_index(Index3(0), size,
-                 [&](Index3 voxel) { voxels.push_back(constraints.at(voxel) == what ? 1 : 0); });
-  return pack_bits(voxels);
-}
-
-Mask read_voxels(const JsonField& field, Index3 size) {
-  Mask mask;
-  mask.geometry.size = size;
-  const std::string packed = field.text(kEndless);
-  if (!field.good()) return mask;
-  auto voxels = unpack_bits(packed, static_cast<std::size_t>(size.x * size.y * size.z));
-  if (voxels) {
-    mask.voxels = std::move(*voxels);
-  } else {
-    field.wrong("does not hold the volume's voxels");
+// Whether a transform is a rotation and a shift, up to the rounding of its numbers in a file.
+bool is_rigid(const glm::dmat4& transform) {
+  constexpr double kRounding = 1e-3;
+  const glm::dmat3 turn(transform);
+  const glm::dmat3 product = glm::transpose(turn) * turn;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      if (std::abs(product[column][row] - (row == column ? 1.0 : 0.0)) > kRounding) return false;
+    }
   }
-  return mask;
-}
-
-// Memory is taken only for as many voxels as the file holds.
-std::shared_ptr<const solver::Constraints> read_constraints(const JsonField& field, Index3 size) {
-  const Mask walls = read_voxels(field.at("walls"), size);
-  const Mask anchors = read_voxels(field.at("anchors"), size);
-  if (!field.good()) return nullptr;
-  auto constraints = std::make_shared<solver::Constraints>(size);
-  constraints->set(walls, solver::Constraint::wall);
-  constraints->set(anchors, solver::Constraint::anchor);
-  return constraints;
+  return glm::determinant(turn) > 0.0 && glm::row(transform, 3) == glm::dvec4(0.0, 0.0, 0.0, 1.0);
 }
 
 // Notes a problem where there are more than are read.
@@ -145,31 +125,25 @@ CaseImage read_image(const JsonField& field) {
     image.to_case[static_cast<int>(i % 4)][static_cast<int>(i / 4)] = transform.at(i).number(-1e7, 1e7);
   }
   if (!field.good()) return image;
-  const glm::dmat4& m = image.to_case;
-  const bool affine = m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] == 1.0;
-  if (!affine || std::abs(std::abs(glm::determinant(glm::dmat3(m))) - 1.0) > 1e-3) {
-    transform.wrong("does not keep lengths");
-  }
+  if (!is_rigid(image.to_case)) transform.wrong("is not a rotation and a shift");
   return image;
 }
 
-Json to_json(const Drive& drive) {
+Json to_json(const Drive& drive, const solver::Constraints* before) {
   Json json{{"combine", drive.setting.combine == solver::Combine::least ? "least" : "product"}};
   for (const solver::SpeedTerm& term : drive.setting.terms) json["speed"].push_back(to_json(term));
   if (drive.strokes != nullptr) {
     json["strokes"] = {{"inside", packed_offsets(drive.strokes->inside)},
                        {"outside", packed_offsets(drive.strokes->outside)}};
   }
-  if (drive.constraints != nullptr && !drive.constraints->empty()) {
-    json["walls"] = packed_voxels(*drive.constraints, solver::Constraint::wall);
-    json["anchors"] = packed_voxels(*drive.constraints, solver::Constraint::anchor);
-  }
+  add_constraints(json, drive.constraints.get(), before);
   for (const auto& image : drive.images) json["images"].push_back(to_json(*image));
   if (drive.map != nullptr) json["map"] = {{"name", drive.map->name}, {"sha256", drive.map->checksum}};
   return json;
 }
 
-Drive read_drive(const JsonField& field, Index3 grid_size) {
+Drive read_drive(const JsonField& field, Index3 grid_size,
+                 const std::shared_ptr<const solver::Constraints>& before) {
   Drive drive;
   drive.setting.combine =
       field.at("combine").word({"least", "product"}) == 0 ? solver::Combine::least : solver::Combine::product;
@@ -183,9 +157,7 @@ Drive read_drive(const JsonField& field, Index3 grid_size) {
   if (field.has("strokes")) {
     drive.strokes = std::make_shared<const solver::Strokes>(read_strokes(field.at("strokes"), voxels));
   }
-  if (field.has("walls") && field.good()) {
-    drive.constraints = read_constraints(field, grid_size);
-  }
+  if (field.good()) drive.constraints = read_constraints(field, grid_size, before);
   if (field.has("images")) {
     const JsonField images = field.at("images");
     const std::size_t images_count = images.size(kMostImages);

@@ -85,7 +85,10 @@ Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> vol
   Evolution result;
   result.start = std::move(*start);
   result.coarse_runs = setup->coarse_runs();
-  TIDEMARK_TRY(play(*setup, recipe, options, progress, result.advance));
+  result.executor = setup->description();
+  Recipe played = recipe;
+  if (options.executor) played.set_executor(result.executor);
+  TIDEMARK_TRY(play(*setup, played, options, progress, result.advance));
   auto phi = setup->executor().snapshot();
   if (!phi) return pass_on(phi);
   result.phi = std::move(*phi);
@@ -94,7 +97,6 @@ Result<Evolution> evolve(const Recipe& recipe, std::shared_ptr<const Volume> vol
   constexpr double kFarApartMm = 1e6;  // one place will do
   const auto places = solver::surface_places_in(result.phi, *moving, kFarApartMm);
   if (!places.empty()) result.moves_at = places.front();
-  result.executor = setup->description();
   result.memory = setup->executor().memory();
   result.band = setup->executor().band();
   result.time_step = setup->executor().time_step();

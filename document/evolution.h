@@ -19,7 +19,7 @@
 namespace tidemark::document {
 
 struct EvolutionOptions {
-  std::optional<solver::ExecutorKind> executor;  // unset: the one that the recipe names
+  std::optional<solver::ExecutorKind> executor;  // for all of it; unset: those that the recipe names
   solver::ExecutorOptions options;               // the pages' shape is the recipe's where the executor is
   bool until_converged =
       false;  // after the last event: ends before the recipe's steps when the surface rests
@@ -35,8 +35,8 @@ struct EvolutionOptions {
 // A level set at the end of its evolution.
 struct Evolution {
   solver::Field phi;
-  solver::Field start;  // before the first edit and step
-  RecipeExecutor executor;
+  solver::Field start;                 // before the first edit and step
+  RecipeExecutor executor;             // of the first step
   std::vector<CoarseRun> coarse_runs;  // before that; empty: none
   solver::AdvanceReport advance;
   std::optional<glm::dvec3> moves_at;  // a place on the surface that still moved at the end, in voxels

@@ -122,6 +122,16 @@ Status ExecutorSetup::change_executor(solver::ExecutorKind kind, const solver::E
   return remake(source_, executor_->parameters(), kind, options, phi, executor_->speed());
 }
 
+Status ExecutorSetup::use(const RecipeExecutor& executor) {
+  if (executor == description()) return resume();
+  const auto phi = executor_->snapshot();
+  if (!phi) return pass_on(phi);
+  solver::ExecutorOptions options = options_;
+  options.page_shape = executor.page_shape;
+  options.skip_quiet_pages = options_.skip_quiet_pages && executor.skip_quiet_pages;
+  return change_executor(solver::executor_named(executor.name).value_or(kind_), options, *phi);
+}
+
 Status ExecutorSetup::set_drive(std::shared_ptr<const Drive> drive, const Progress& progress) {
   if (drive == nullptr) return set_drive(nullptr, std::shared_ptr<const solver::SpeedFunction>());
   // Walls alone change no function, and learning one again takes long.
@@ -250,6 +260,16 @@ Status ExecutorSetup::resume() {
   return executor_->restore(*phi);
 }
 
+// The executor gets the function again where nothing else is new: pages that rested wake by the event, as
+// they did when what is of the same values was painted or chosen once more.
+Status ExecutorSetup::apply(const DriveEvent& event, const Progress& progress) {
+  const auto speed = executor_->speed();
+  const auto constraints = value_of(drive_).constraints;
+  TIDEMARK_TRY(set_drive(event.drive, Progress{nullptr, progress.stop}));
+  const bool unchanged = executor_->speed() == speed && value_of(drive_).constraints == constraints;
+  return unchanged ? executor_->set_speed(speed) : Status();
+}
+
 Status ExecutorSetup::apply(const RecipeEvent& event, const Progress& progress) {
   if (const auto* paint = std::get_if<PaintEvent>(&event.what)) {
     return executor_->paint(paint->sphere, paint->brush);
@@ -259,8 +279,8 @@ Status ExecutorSetup::apply(const RecipeEvent& event, const Progress& progress) 
   }
   if (const auto* smoothing = std::get_if<SmoothEvent>(&event.what))
     return smooth_source(smoothing->sigma_mm, {nullptr, progress.stop});
-  if (const auto* drive = std::get_if<DriveEvent>(&event.what))
-    return set_drive(drive->drive, Progress{nullptr, progress.stop});
+  if (const auto* drive = std::get_if<DriveEvent>(&event.what)) return apply(*drive, progress);
+  if (const auto* other = std::get_if<ExecutorEvent>(&event.what)) return use(other->executor);
   return resume();
 }
 

@@ -28,6 +28,7 @@ class ExecutorSetup {
   [[nodiscard]] const std::shared_ptr<const Volume>& source() const { return source_; }  // perhaps smoothed
   [[nodiscard]] double smoothed_mm() const { return smoothed_mm_; }
   [[nodiscard]] solver::ExecutorKind kind() const { return kind_; }  // as it was asked for
+  [[nodiscard]] const solver::ExecutorOptions& options() const { return options_; }
   [[nodiscard]] RecipeExecutor description() const;
 
   // What drives and holds the surface (null: as without): another executor gets it, too. Fails as
@@ -58,6 +59,8 @@ class ExecutorSetup {
                     std::shared_ptr<const solver::SpeedFunction> speed);
   Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options,
                          const solver::Field& phi);
+  // The one of a recipe. Where it is that one already, as resume().
+  Status use(const RecipeExecutor& executor);
 
   // A start with the present parameters and source, and with its limit; an empty one is outside everywhere.
   // Returns phi at the start.
@@ -79,6 +82,7 @@ class ExecutorSetup {
 
  private:
   ExecutorSetup() = default;
+  Status apply(const DriveEvent& event, const Progress& progress);
   Result<solver::Field> begin_present(const Start& start, const Progress& progress);
   Status hold(std::shared_ptr<const solver::Constraints> marks,
               std::shared_ptr<const solver::MotionLimit> limit);

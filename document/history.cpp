@@ -1,6 +1,7 @@
 #include "document/history.h"
 
 #include <algorithm>
+#include <queue>
 #include <utility>
 
 namespace tidemark::document {
@@ -22,32 +23,47 @@ std::int64_t History::bytes() const {
 
 void History::keep_below_limit() {
   std::int64_t sum = bytes();
-  while (sum > limit_) {
-    if (const auto end = farthest_end()) {
-      sum -= nodes_.at(*end).change->bytes();
-      drop(*end);
-    } else if (present_ != root_ && present().parent != root_) {
-      drop_root();
-      sum = bytes();
-    } else {
-      return;
-    }
+  if (sum > limit_) sum = drop_ends(sum);
+  while (sum > limit_ && present_ != root_ && present().parent != root_) {
+    const std::uint64_t next = nodes_.at(root_).children.front();
+    sum -= nodes_.at(next).change->bytes();
+    drop_root();
   }
 }
 
-// The end of a branch that is farthest from the present state, the oldest of several; unset: all that is left
-// leads to it.
-std::optional<std::uint64_t> History::farthest_end() const {
-  std::optional<std::uint64_t> found;
-  std::size_t most = 0;
-  for (const auto& [id, node] : nodes_) {
-    if (!node.children.empty() || id == present_ || id == root_) continue;
-    const std::size_t away = distance(present_, id);
-    if (away <= most) continue;
-    most = away;
-    found = id;
+// Ends of branches, the farthest from the present state first and the oldest of several, until the rest is
+// below the limit, or leads to that state. Returns the bytes of the rest, where `sum` are those of all.
+std::int64_t History::drop_ends(std::int64_t sum) {
+  using Away = std::pair<std::size_t, std::uint64_t>;  // changes from the present state, and the state
+  const auto is_later = [](const Away& a, const Away& b) {
+    return a.first != b.first ? a.first < b.first : a.second > b.second;
+  };
+  std::priority_queue<Away, std::vector<Away>, decltype(is_later)> ends(is_later);
+  const std::unordered_map<std::uint64_t, std::size_t> away = distances();
+  const auto add = [&](std::uint64_t id) {
+    if (nodes_.at(id).children.empty() && id != present_ && id != root_) ends.emplace(away.at(id), id);
+  };
+  for (const auto& [id, node] : nodes_) add(id);
+  while (sum > limit_ && !ends.empty()) {
+    const std::uint64_t end = ends.top().second;
+    ends.pop();
+    const std::uint64_t parent = *nodes_.at(end).parent;
+    sum -= nodes_.at(end).change->bytes();
+    drop(end);
+    add(parent);
   }
-  return found;
+  return sum;
+}
+
+// Of all states from the present one, in changes.
+std::unordered_map<std::uint64_t, std::size_t> History::distances() const {
+  std::unordered_map<std::uint64_t, std::size_t> away;
+  std::size_t up = 0;
+  for (std::optional<std::uint64_t> at = present_; at; at = nodes_.at(*at).parent) away[*at] = up++;
+  for (const auto& [id, node] : nodes_) {
+    if (node.parent) away.try_emplace(id, away.at(*node.parent) + 1);  // parents have smaller numbers
+  }
+  return away;
 }
 
 void History::drop(std::uint64_t id) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "document/change.h"
@@ -100,7 +101,8 @@ class History {
   Status walk(const Way& way);
   Status arrive(const Way& way);
   void keep_below_limit();
-  [[nodiscard]] std::optional<std::uint64_t> farthest_end() const;
+  std::int64_t drop_ends(std::int64_t sum);
+  [[nodiscard]] std::unordered_map<std::uint64_t, std::size_t> distances() const;
   void drop(std::uint64_t id);
   void drop_root();
 

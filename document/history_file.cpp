@@ -1,6 +1,7 @@
 #include "document/history_file.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
@@ -18,11 +19,12 @@ constexpr std::size_t kMostPoints = 4'000'000;              // of all curves tog
 constexpr std::int64_t kMostPages = std::int64_t{1} << 22;  // 8 GB; memory is taken for what is there
 
 // In the order of ChangeKind.
-const std::vector<std::string_view> kKinds{
-    "start",         "paint",       "erase",     "target",     "range",          "smoothing",
-    "parameters",    "evolution",   "step back", "restart",    "sweep",          "source",
-    "examples",      "constraints", "speed",     "new label",  "label settings", "remove label",
-    "import labels", "accept",      "finish",    "label brush"};
+constexpr auto kKinds = std::to_array<std::string_view>(
+    {"start",         "paint",       "erase",     "target",     "range",          "smoothing",
+     "parameters",    "evolution",   "step back", "restart",    "sweep",          "source",
+     "examples",      "constraints", "speed",     "new label",  "label settings", "remove label",
+     "import labels", "accept",      "finish",    "label brush"});
+static_assert(kKinds.size() == kChangeKinds);
 
 // What a state's own recipe, wanted drive and curve go on from.
 struct Base {
@@ -137,7 +139,7 @@ std::vector<bool> near_enough(const SessionContents& contents, const JsonLimits&
 
 ChangeDescription read_change(const JsonField& field) {
   ChangeDescription change;
-  change.kind = static_cast<ChangeKind>(field.at("kind").word(kKinds));
+  change.kind = static_cast<ChangeKind>(field.at("kind").word({kKinds.begin(), kKinds.end()}));
   change.steps = field.at("steps").integer(0, kMostSteps);
   change.name = field.at("name").text(kLongestDescription);
   return change;

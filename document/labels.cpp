@@ -208,6 +208,7 @@ Result<Acceptance> Labels::give(ChangeKind kind, std::vector<LabelRegion> region
     }
     give_voxels(wanted.region, wanted.label, free, acceptance, runs, voxels);
   }
+  if (runs.empty() && list == list_) return acceptance;  // no entry of the history, which would end redo
   Status changed = change(kind, acceptance.label, std::move(list), std::move(runs), std::move(voxels));
   if (!changed) return pass_on(changed);
   return acceptance;

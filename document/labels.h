@@ -53,6 +53,7 @@ struct Acceptance {
 class Labels {
  public:
   // Changes become entries of `history`, if it is not null. It must not be used after the labels are gone.
+  // Where nothing differs after it, a call makes no entry.
   explicit Labels(const Geometry& geometry, History* history = nullptr)
       : geometry_(geometry), history_(history), voxels_(geometry.size) {}
 

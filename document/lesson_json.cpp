@@ -6,6 +6,7 @@
 #include "document/lesson.h"
 #include "document/lesson_figure_names.h"
 #include "document/recipe_json.h"
+#include "imaging/filters/filters.h"
 #include "imaging/phantom/phantom_name.h"
 
 namespace tidemark::document {
@@ -139,7 +140,9 @@ LessonTry read_try(const JsonField& field, const Lesson& lesson) {
   if (field.has("parameters")) {
     attempt.parameters = read_changed_parameters(field.at("parameters"), lesson.parameters);
   }
-  if (field.has("smoothed_mm")) attempt.smoothed_mm = field.at("smoothed_mm").number(0.0, 1000.0);
+  if (field.has("smoothed_mm")) {
+    attempt.smoothed_mm = field.at("smoothed_mm").number(0.0, imaging::kMostSmoothing_mm);
+  }
   attempt.steps = field.at("steps").integer(0, Lesson::kMostSteps);
   if (field.has("until_rest")) attempt.until_rest = field.at("until_rest").boolean();
   if (field.has("show")) {

@@ -51,9 +51,25 @@ LevelSet::LevelSet(ExecutorSetup setup, const solver::Parameters& parameters, Hi
   history_.set_steering(steering_of(known_));
 }
 
-// Appends to the recipe, after the ResumeEvent if phi was put back.
+// Where phi was put back, the recipe says so, and into which executor.
+void LevelSet::append_resumption() {
+  if (!std::exchange(resumed_, false) || step() == 0) return;
+  const RecipeExecutor present = setup_.description();
+  if (present == recipe_.final_executor()) {
+    recipe_.events.push_back({step(), ResumeEvent{}});
+  } else {
+    recipe_.events.push_back({step(), ExecutorEvent{present}});
+  }
+}
+
+// Before the first step no other executor has a part in it.
+void LevelSet::settle_executor(Recipe& recipe) const {
+  if (recipe.steps == 0) recipe.set_executor(setup_.description());
+}
+
+// Appends to the recipe, after what put phi back.
 void LevelSet::append(RecipeEvent event) {
-  if (std::exchange(resumed_, false) && step() > 0) recipe_.events.push_back({step(), ResumeEvent{}});
+  append_resumption();
   recipe_.events.push_back(std::move(event));
 }
 
@@ -151,7 +167,7 @@ Result<solver::AdvanceReport> LevelSet::advance(const solver::Advance& run) {
   const std::int64_t steps = executor().steps_of_last_run();
   if (steps == 0) return report;
   if (!open_) begin_change(ChangeKind::evolution, 0, known_);
-  if (std::exchange(resumed_, false) && step() > 0) recipe_.events.push_back({step(), ResumeEvent{}});
+  append_resumption();
   recipe_.steps += steps;
   dirty_ = true;
   return report;
@@ -189,7 +205,7 @@ Status LevelSet::go_to(Point point) {
     if (Status back = hand_over(known_); !back) return gone;
     point = known_;
   }
-  point.recipe.executor = setup_.description();
+  settle_executor(point.recipe);
   point.recipe.source = recipe_.source;
   put_in_place(std::move(point));
   resumed_ = true;
@@ -231,6 +247,8 @@ Status LevelSet::compute_again(std::int64_t target, const Progress& progress) {
     const Recipe& from = in_place_.recipe;
     return setup_.play(recipe_, from.events.size(), from.steps, target, progress);
   }
+  const RecipeExecutor present = setup_.description();
+  if (recipe_.executor != present && !setup_.use(recipe_.executor)) recipe_.set_executor(present);
   TIDEMARK_TRY(prepare_start());
   std::size_t first_event = 0;
   while (first_event < recipe_.events.size() && recipe_.events[first_event].step == 0) ++first_event;
@@ -242,8 +260,23 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
   const std::int64_t target = step() - std::clamp<std::int64_t>(steps, 0, step());
   if (target == step()) return {};
   Point before = known_;
-  TIDEMARK_TRY(
-      keep(compute_again(target, progress), recipe_.up_to(target), ChangeKind::step_back, std::move(before)));
+  const RecipeExecutor present = setup_.description();
+  const solver::ExecutorKind kind = setup_.kind();
+  const solver::ExecutorOptions options = setup_.options();
+  Status computed = compute_again(target, progress);
+  const bool was_elsewhere = setup_.description() != present || setup_.kind() != kind;
+  if (was_elsewhere) {
+    const auto phi = executor().snapshot();
+    if (computed && !phi) computed = pass_on(phi);
+    Status back = setup_.change_executor(kind, options, phi ? *phi : *known_.phi);
+    if (computed) computed = std::move(back);
+  }
+  TIDEMARK_TRY(keep(std::move(computed), recipe_.up_to(target), ChangeKind::step_back, std::move(before)));
+  if (was_elsewhere) {
+    in_place_ = known_;
+    resumed_ = true;
+    return {};
+  }
   if (in_place_.recipe.steps > target) in_place_ = {recipe_.up_to(0), start_, start_, {}, drive_};
   return {};
 }
@@ -253,7 +286,6 @@ Status LevelSet::step_back(std::int64_t steps, const Progress& progress) {
 Status LevelSet::keep(Status computed, Recipe recipe, ChangeKind kind, Point before) {
   if (computed) {
     recipe_ = std::move(recipe);
-    recipe_.executor = setup_.description();
     take_drive_of_recipe();
     curve_.cut(step());
     resumed_ = false;
@@ -334,9 +366,11 @@ Status LevelSet::restart() {
 
 Status LevelSet::change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options) {
   TIDEMARK_TRY(history_.close());
+  // Nothing is open any more: what cannot be read back now is lost.
+  if (dirty_ && !read_back_phi()) return rebuild(options, kind);
   TIDEMARK_TRY(setup_.change_executor(kind, options, *known_.phi));
-  recipe_.executor = setup_.description();
-  known_.recipe.executor = recipe_.executor;
+  settle_executor(recipe_);
+  known_.recipe = recipe_;
   in_place_ = known_;
   resumed_ = true;
   return {};

@@ -68,7 +68,8 @@ class LevelSet final : private OpenChange {
   Status end_run();
 
   // Back to where the level set was `steps` steps ago, by computing again from where phi was last put in
-  // place: the same voxels. At most to the start. An entry of its own.
+  // place: the same voxels, by the executors that have made them. Where the first of these cannot be had,
+  // the present one computes all. At most to the start. An entry of its own.
   Status step_back(std::int64_t steps, const Progress& progress = {});
   // Back to the start as it was before the first step, with the present parameters, walls and anchors. Those
   // that are gone by then have not moved it. An entry of its own.
@@ -87,7 +88,8 @@ class LevelSet final : private OpenChange {
   // The function that was made from drive(): from here on the recipe has it. Not an entry of the history.
   Status set_speed(std::shared_ptr<const solver::SpeedFunction> speed);
 
-  // Goes on with another executor from the same phi.
+  // Goes on with another executor from the same phi; where steps were computed, the recipe says so. Where phi
+  // was lost with its context, as rebuild() does.
   Status change_executor(solver::ExecutorKind kind, const solver::ExecutorOptions& options);
   // After the graphics context was lost: a new executor on options.device, from the last checkpoint, with the
   // present parameters; of another kind, where none of the same can be had.
@@ -174,6 +176,8 @@ class LevelSet final : private OpenChange {
   enum class Entry { next, none };  // of the history, for what is done
   Status use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed, Entry entry);
   void append(RecipeEvent event);
+  void append_resumption();
+  void settle_executor(Recipe& recipe) const;
   void add_entry(ChangeKind kind, const Point& before, const Point& after);
   void enter(ChangeKind kind, Point before);
   Status read_back_phi();
@@ -206,7 +210,7 @@ class LevelSet final : private OpenChange {
   Point known_;              // the last phi that was read back
   bool dirty_ = false;       // phi has changed since
   Point in_place_;           // where phi was last put in place; the executor has run on since
-  bool resumed_ = false;     // it was, and the recipe has no ResumeEvent yet
+  bool resumed_ = false;     // it was, and the recipe does not say so yet
   bool on_its_way_ = false;  // to known_, which the executor has not got yet
   std::optional<Open> open_;
 };

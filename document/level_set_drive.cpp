@@ -15,10 +15,11 @@ ChangeKind kind_of_change(const Drive& before, const Drive& after) {
 
 // Without what waits for another function.
 Drive relevant(Drive drive) {
-  if (!drive.setting.is_tent()) return drive;
-  Drive held;
-  held.constraints = std::move(drive.constraints);
-  return held;
+  if (drive.setting.is_tent()) drive.setting = {};
+  if (!solver::any_has(drive.setting, &solver::SpeedKind::needs_strokes)) drive.strokes.reset();
+  if (!solver::any_has(drive.setting, &solver::SpeedKind::needs_map)) drive.map.reset();
+  if (!uses_images(drive.setting)) drive.images.clear();
+  return drive;
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ Drive LevelSet::drive_in_use() const {
 // Puts it in place of what drives and holds the surface, and into the recipe.
 Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunction> speed, Entry entry) {
   const Drive used = relevant(drive);
-  const Drive present = drive_in_use();
+  const Drive present = relevant(drive_in_use());
   // The one in place was made from the same: giving it again would wake pages, which a replay does not.
   const bool in_place = used.setting.is_tent() || executor().speed() != nullptr;
   if (in_place && used == present) return {};
@@ -58,7 +59,7 @@ Status LevelSet::use(const Drive& drive, std::shared_ptr<const solver::SpeedFunc
     curve_.cut(step());
     dirty_ = true;
   }
-  if (used == value_of(recipe_.final_drive())) return {};
+  if (used == relevant(value_of(recipe_.final_drive()))) return {};
   if (!begun()) {
     recipe_.drive = shared(used);
   } else if (RecipeEvent event{step(), DriveEvent{std::make_shared<const Drive>(used)}};
@@ -97,7 +98,7 @@ Status LevelSet::set_source(std::shared_ptr<const Volume> source, double sigma_m
 // Of what waits for another function nothing is lost.
 void LevelSet::take_drive_of_recipe() {
   Drive drive = value_of(recipe_.final_drive());
-  if (drive == relevant(*drive_)) return;
+  if (relevant(drive) == relevant(*drive_)) return;
   if (drive.strokes == nullptr) drive.strokes = drive_->strokes;
   if (drive.map == nullptr) drive.map = drive_->map;
   drive_ = std::make_shared<const Drive>(std::move(drive));

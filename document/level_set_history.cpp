@@ -10,7 +10,7 @@ namespace tidemark::document {
 
 Steering LevelSet::steering_of(const Recipe& recipe, const Drive& drive,
                                std::shared_ptr<const solver::Field> phi) {
-  return {recipe.begun(), recipe.steps, recipe.final_parameters(), describe(drive), std::move(phi)};
+  return {recipe.begun(), recipe.steps, recipe.final_parameters(), summary_of(drive), std::move(phi)};
 }
 
 std::shared_ptr<const Drive> LevelSet::unless_last(const Recipe& recipe,
@@ -27,7 +27,7 @@ std::shared_ptr<const Drive> LevelSet::drive_of(const Recipe& recipe,
 
 // One of the points on a way through the history: the executor gets the last one only.
 void LevelSet::pass(Point point) {
-  point.recipe.executor = setup_.description();
+  settle_executor(point.recipe);
   point.recipe.source = recipe_.source;
   put_in_place(std::move(point));
   resumed_ = true;

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "document/segment_meshes.h"
+#include "imaging/resample.h"
+#include "solver/statistics.h"
 
 namespace tidemark::document {
 namespace {
@@ -19,9 +21,13 @@ Json chord(const imaging::Chord& chord) {
 
 Json values(const ImageValues& image) {
   const imaging::InsideValues& inside = image.values;
-  Json object{{"image", image.image},        {"unit", image.unit},
-              {"mean", inside.mean},         {"standard_deviation", inside.standard_deviation},
-              {"smallest", inside.smallest}, {"largest", inside.largest}};
+  Json object{{"image", image.image},
+              {"unit", image.unit},
+              {"covered", image.covered},
+              {"mean", inside.mean},
+              {"standard_deviation", inside.standard_deviation},
+              {"smallest", inside.smallest},
+              {"largest", inside.largest}};
   for (std::size_t n = 0; n < inside.percentiles.size(); ++n)
     object["percentiles"][std::to_string(std::lround(imaging::kPercentiles[n]))] = inside.percentiles[n];
   if (inside.uptake) {
@@ -33,6 +39,13 @@ Json values(const ImageValues& image) {
 
 }  // namespace
 
+Result<MeasuredImage> measured_image(const std::string& name, const CaseImage& image, const Geometry& grid) {
+  const auto voxels = resampled(image, grid);
+  if (!voxels) return pass_on(voxels);
+  const imaging::Resampled& all = **voxels;
+  return MeasuredImage{name, {*voxels, &all.volume}, {*voxels, &all.covered}};
+}
+
 Result<std::vector<MeasuredImage>> images_on(const Geometry& grid, MeasuredImage study,
                                              const std::vector<std::shared_ptr<const CaseImage>>& images,
                                              const Progress& progress) {
@@ -40,11 +53,11 @@ Result<std::vector<MeasuredImage>> images_on(const Geometry& grid, MeasuredImage
   for (const auto& image : images) {
     if (progress.cancelled()) return cancelled_error();
     if (image->volume == nullptr) continue;
-    auto voxels = on_grid(*image, grid);
-    const bool is_elsewhere = !voxels && voxels.error().kind == ErrorKind::usage;
+    auto on_case = measured_image(image->name, *image, grid);
+    const bool is_elsewhere = !on_case && on_case.error().kind == ErrorKind::usage;
     if (is_elsewhere) continue;
-    if (!voxels) return pass_on(voxels);
-    measured.push_back({image->name, std::move(*voxels)});
+    if (!on_case) return pass_on(on_case);
+    measured.push_back(std::move(*on_case));
   }
   return measured;
 }
@@ -65,15 +78,23 @@ Result<Measures> measure(const Region& region, const Geometry& grid, const std::
   const auto surface = phi != nullptr ? mesh_of(*phi) : mesh_of(mask_of(region, grid));
   if (!surface) return pass_on(surface);
   measures.area_mm2 = imaging::mesh_area_mm2(*surface);
+  if (phi != nullptr) {
+    const solver::SurfaceStatistics statistics = solver::measure(*phi);
+    measures.volume_ml = statistics.volume_ml;
+    if (!measures.is_cut) measures.area_mm2 = statistics.surface_mm2;
+  }
   measures.sphericity = imaging::mesh_sphericity(*surface);
   for (const MeasuredImage& image : images) {
     if (progress.cancelled()) return cancelled_error();
     progress(0.6, "values");
-    auto values = imaging::values_inside(region, *image.volume, progress);
+    const Region seen = image.covered ? intersection(region, *image.covered) : region;
+    if (seen.empty()) continue;
+    auto values = imaging::values_inside(seen, *image.volume, progress, image.covered.get());
     if (!values) return pass_on(values);
     const auto [low, high] = image.volume->common_range();
-    measures.images.push_back(
-        {image.name, image.volume->unit, *values, static_cast<double>(high) - static_cast<double>(low)});
+    const double covered = static_cast<double>(seen.count()) / static_cast<double>(measures.voxels);
+    measures.images.push_back({image.name, image.volume->unit, *values,
+                               static_cast<double>(high) - static_cast<double>(low), covered});
   }
   return measures;
 }

@@ -18,7 +18,11 @@ namespace tidemark::document {
 struct MeasuredImage {
   std::string name;
   std::shared_ptr<const Volume> volume;
+  std::shared_ptr<const Region> covered = nullptr;  // the grid's voxels that the image has; null: all
 };
+
+// A further image on that grid. Fails as on_grid() does.
+Result<MeasuredImage> measured_image(const std::string& name, const CaseImage& image, const Geometry& grid);
 
 // Those of the images that have voxels on the grid, behind the study's own. One that lies elsewhere has none
 // inside of a region. Fails (ErrorKind::cancelled), and (ErrorKind::capability) for lack of memory.
@@ -30,22 +34,24 @@ struct ImageValues {
   std::string image;  // its name
   std::string unit;   // empty: its values have none
   imaging::InsideValues values;
-  double span = 0.0;  // of the whole image's common_range(): how finely values are told
+  double span = 0.0;     // of the whole image's common_range(): how finely values are told
+  double covered = 1.0;  // the part of the region's voxels that the image has, above 0: values are of these
 };
 
 struct Measures {
   std::int64_t voxels = 0;
-  double volume_ml = 0.0;  // of the voxels
+  double volume_ml = 0.0;  // of the voxels; of a level set inside it, as solver::measure() has it
   double area_mm2 = 0.0;   // of the surface, and of the faces where the grid ends
   bool is_cut = false;     // by the grid's end
   // The area of a ball with the surface's volume by that area: 1 for a ball.
   double sphericity = 0.0;
   imaging::Diameters diameters;
-  std::vector<ImageValues> images;
+  std::vector<ImageValues> images;  // without those that have no voxel of the region
 };
 
-// With the surface of that level set; null: it runs half way between voxels inside and outside. Fails
-// (ErrorKind::usage) on an empty region, (ErrorKind::cancelled), and as extract_surface() does.
+// With the surface of that level set, whose area is that of solver::measure() where the grid does not cut it;
+// null: it runs half way between voxels inside and outside. Fails (ErrorKind::usage) on an empty region,
+// (ErrorKind::cancelled), and as extract_surface() does.
 Result<Measures> measure(const Region& region, const Geometry& grid, const std::vector<MeasuredImage>& images,
                          const solver::Field* phi = nullptr, const Progress& progress = {});
 

@@ -50,6 +50,18 @@ bool Recipe::has_drive() const {
   return drive != nullptr || last_event<DriveEvent>(events) != nullptr;
 }
 
+const RecipeExecutor& Recipe::final_executor() const {
+  const auto* event = last_event<ExecutorEvent>(events);
+  return event != nullptr ? event->executor : executor;
+}
+
+void Recipe::set_executor(const RecipeExecutor& only) {
+  executor = only;
+  for (RecipeEvent& event : events) {
+    if (std::holds_alternative<ExecutorEvent>(event.what)) event.what = ResumeEvent{};
+  }
+}
+
 void Recipe::set_conditions(const solver::Parameters& wanted,
                             const std::shared_ptr<const Drive>& wanted_drive) {
   if (!start.needs_speed()) {

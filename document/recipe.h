@@ -41,10 +41,23 @@ struct ResumeEvent {
   bool operator==(const ResumeEvent&) const = default;
 };
 
+// The executor: the same bits come from the same one with the same pages.
+struct RecipeExecutor {
+  std::string name;  // as Executor::name()
+  Index3 page_shape = kDefaultPageShape;
+  bool skip_quiet_pages = true;
+  bool operator==(const RecipeExecutor&) const = default;
+};
+// From here on that one computes; phi was put into it.
+struct ExecutorEvent {
+  RecipeExecutor executor;
+  bool operator==(const ExecutorEvent&) const = default;
+};
+
 // Happens when that many steps have been computed.
 struct RecipeEvent {
   std::int64_t step = 0;
-  std::variant<PaintEvent, ParametersEvent, SmoothEvent, DriveEvent, ResumeEvent> what;
+  std::variant<PaintEvent, ParametersEvent, SmoothEvent, DriveEvent, ResumeEvent, ExecutorEvent> what;
   bool operator==(const RecipeEvent&) const = default;
 };
 
@@ -58,24 +71,18 @@ struct RecipeSource {
   bool operator==(const RecipeSource&) const = default;
 };
 
-// The executor: the same bits come from the same one with the same pages.
-struct RecipeExecutor {
-  std::string name;  // as Executor::name()
-  Index3 page_shape = kDefaultPageShape;
-  bool skip_quiet_pages = true;
-  bool operator==(const RecipeExecutor&) const = default;
-};
-
 struct Recipe {
   // Each recipe is written with the first version that can read it: where a tent drives the surface and
-  // nothing holds it, where another drive does, and where the start is computed coarse to fine.
+  // nothing holds it, where another drive does, where the start is computed coarse to fine, and where
+  // another executor goes on.
   static constexpr int kVersionOfTents = 1;
   static constexpr int kVersionOfDrives = 2;
-  static constexpr int kVersion = 3;
+  static constexpr int kVersionOfLevels = 3;
+  static constexpr int kVersion = 4;
   static constexpr std::size_t kLargestFile = std::size_t{64} << 20;  // bytes
 
   RecipeSource source;
-  RecipeExecutor executor;
+  RecipeExecutor executor;   // at the start
   double smoothed_mm = 0.0;  // at the start
   Start start;
   solver::Parameters parameters;       // at the start
@@ -95,6 +102,9 @@ struct Recipe {
   [[nodiscard]] double final_smoothed_mm() const;
   [[nodiscard]] const std::shared_ptr<const Drive>& final_drive() const;  // null: as `drive`
   [[nodiscard]] bool has_drive() const;                                   // at the start, or in an event
+  [[nodiscard]] const RecipeExecutor& final_executor() const;
+  // All of it is computed by that one.
+  void set_executor(const RecipeExecutor& only);
   // The conditions of the first step become these. A start that was computed by a speed, coarse to fine or
   // where it is above 0, keeps those that it was computed with: others follow it as events.
   void set_conditions(const solver::Parameters& wanted, const std::shared_ptr<const Drive>& wanted_drive);

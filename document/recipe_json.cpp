@@ -1,5 +1,6 @@
 #include "document/recipe_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@
 #include "document/field_bytes.h"
 #include "document/file_limits.h"
 #include "document/packed_bytes.h"
+#include "imaging/filters/filters.h"
 #include "solver/coarse_grid.h"
 #include "solver/speed/motion_limit.h"
 
@@ -21,7 +23,6 @@ namespace {
 constexpr std::int64_t kLongestAxis = 1 << 20;
 constexpr std::size_t kMostEvents = 1'000'000;
 constexpr std::size_t kMostStartSpheres = 100'000;
-constexpr double kFarthest_mm = 1e7;
 constexpr double kLargestLimit = 1e5;  // mm
 constexpr const char* kRecipeFormat = "tidemark recipe";
 
@@ -222,7 +223,24 @@ Json to_json(const Start& start) {
 
 namespace {
 
-Json to_json(const RecipeEvent& event) {
+Json to_json(const RecipeExecutor& executor) {
+  return {{"name", executor.name},
+          {"page_shape", index_json(executor.page_shape)},
+          {"skip_quiet_pages", executor.skip_quiet_pages}};
+}
+
+RecipeExecutor read_executor(const JsonField& field) {
+  RecipeExecutor executor;
+  const std::vector<std::string_view> names{"host", "compute", "stream", "reference"};
+  executor.name = names[field.at("name").word(names)];
+  executor.page_shape = field.at("page_shape").index(1, 64);
+  if (!is_page_shape(executor.page_shape)) field.at("page_shape").wrong("no pages have that shape");
+  executor.skip_quiet_pages = field.at("skip_quiet_pages").boolean();
+  return executor;
+}
+
+// `before`: the walls and anchors before the event; null: none.
+Json to_json(const RecipeEvent& event, const solver::Constraints* before) {
   Json json{{"step", event.step}};
   if (const auto* paint = std::get_if<PaintEvent>(&event.what)) {
     json[paint->brush == solver::Brush::add ? "add" : "erase"] = to_json(paint->sphere);
@@ -231,7 +249,9 @@ Json to_json(const RecipeEvent& event) {
   } else if (const auto* smoothing = std::get_if<SmoothEvent>(&event.what)) {
     json["smoothed_mm"] = smoothing->sigma_mm;
   } else if (const auto* drive = std::get_if<DriveEvent>(&event.what)) {
-    json["drive"] = tidemark::document::to_json(*drive->drive);
+    json["drive"] = tidemark::document::to_json(*drive->drive, before);
+  } else if (const auto* other = std::get_if<ExecutorEvent>(&event.what)) {
+    json["executor"] = to_json(other->executor);
   } else {
     json["resume"] = true;
   }
@@ -239,7 +259,7 @@ Json to_json(const RecipeEvent& event) {
 }
 
 RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int64_t last_step,
-                       Index3 grid_size) {
+                       Index3 grid_size, const std::shared_ptr<const solver::Constraints>& before) {
   RecipeEvent event;
   event.step = field.at("step").integer(first_step, last_step);
   if (field.has("add")) {
@@ -249,9 +269,11 @@ RecipeEvent read_event(const JsonField& field, std::int64_t first_step, std::int
   } else if (field.has("parameters")) {
     event.what = ParametersEvent{read_parameters(field.at("parameters"))};
   } else if (field.has("smoothed_mm")) {
-    event.what = SmoothEvent{field.at("smoothed_mm").number(0.0, 1000.0)};
+    event.what = SmoothEvent{field.at("smoothed_mm").number(0.0, imaging::kMostSmoothing_mm)};
   } else if (field.has("drive")) {
-    event.what = DriveEvent{std::make_shared<const Drive>(read_drive(field.at("drive"), grid_size))};
+    event.what = DriveEvent{std::make_shared<const Drive>(read_drive(field.at("drive"), grid_size, before))};
+  } else if (field.has("executor")) {
+    event.what = ExecutorEvent{read_executor(field.at("executor"))};
   } else if (field.has("resume")) {
     event.what = ResumeEvent{};
   } else {
@@ -307,8 +329,16 @@ imaging::GridPolicy read_policy(const JsonField& field) {
 
 namespace {
 
+std::shared_ptr<const solver::Constraints> constraints_of(const std::shared_ptr<const Drive>& drive) {
+  return drive == nullptr ? nullptr : drive->constraints;
+}
+
 int version_of(const Recipe& recipe) {
-  if (recipe.start.levels > 1) return Recipe::kVersion;
+  const bool goes_elsewhere = std::any_of(recipe.events.begin(), recipe.events.end(), [](const auto& event) {
+    return std::holds_alternative<ExecutorEvent>(event.what);
+  });
+  if (goes_elsewhere) return Recipe::kVersion;
+  if (recipe.start.levels > 1) return Recipe::kVersionOfLevels;
   return recipe.has_drive() || recipe.start.limit() ? Recipe::kVersionOfDrives : Recipe::kVersionOfTents;
 }
 
@@ -321,15 +351,17 @@ Json to_json(const Recipe& recipe) {
                     {"series_uid", recipe.source.series_uid},
                     {"sha256", recipe.source.checksum},
                     {"slices", to_json(recipe.source.policy)}};
-  json["executor"] = {{"name", recipe.executor.name},
-                      {"page_shape", index_json(recipe.executor.page_shape)},
-                      {"skip_quiet_pages", recipe.executor.skip_quiet_pages}};
+  json["executor"] = to_json(recipe.executor);
   json["smoothed_mm"] = recipe.smoothed_mm;
   json["start"] = to_json(recipe.start);
   json["parameters"] = to_json(recipe.parameters);
-  if (recipe.drive != nullptr) json["drive"] = to_json(*recipe.drive);
+  if (recipe.drive != nullptr) json["drive"] = to_json(*recipe.drive, nullptr);
+  const solver::Constraints* held = constraints_of(recipe.drive).get();
   Json events = Json::array();
-  for (const RecipeEvent& event : recipe.events) events.push_back(to_json(event));
+  for (const RecipeEvent& event : recipe.events) {
+    events.push_back(to_json(event, held));
+    if (const auto* change = std::get_if<DriveEvent>(&event.what)) held = constraints_of(change->drive).get();
+  }
   json["events"] = std::move(events);
   json["steps"] = recipe.steps;
   return json;
@@ -349,25 +381,23 @@ Recipe read_recipe(const JsonField& field) {
   recipe.source.series_uid = source.at("series_uid").text(256);
   recipe.source.checksum = source.at("sha256").text(64);
   if (source.has("slices")) recipe.source.policy = read_policy(source.at("slices"));
-  const JsonField executor = field.at("executor");
-  const std::vector<std::string_view> names{"host", "compute", "stream", "reference"};
-  recipe.executor.name = names[executor.at("name").word(names)];
-  recipe.executor.page_shape = executor.at("page_shape").index(1, 64);
-  if (!is_page_shape(recipe.executor.page_shape)) executor.at("page_shape").wrong("no pages have that shape");
-  recipe.executor.skip_quiet_pages = executor.at("skip_quiet_pages").boolean();
-  recipe.smoothed_mm = field.at("smoothed_mm").number(0.0, 1000.0);
+  recipe.executor = read_executor(field.at("executor"));
+  recipe.smoothed_mm = field.at("smoothed_mm").number(0.0, imaging::kMostSmoothing_mm);
   recipe.start = read_start(field.at("start"));
   recipe.parameters = read_parameters(field.at("parameters"));
   if (field.has("drive")) {
-    recipe.drive = std::make_shared<const Drive>(read_drive(field.at("drive"), recipe.source.size));
+    recipe.drive = std::make_shared<const Drive>(read_drive(field.at("drive"), recipe.source.size, nullptr));
   }
   recipe.steps = field.at("steps").integer(0, kMostSteps);
   const JsonField events = field.at("events");
   const std::size_t count = events.size(kMostEvents);
   std::int64_t step = 0;
+  std::shared_ptr<const solver::Constraints> held = constraints_of(recipe.drive);
   for (std::size_t i = 0; i < count && field.good(); ++i) {
-    recipe.events.push_back(read_event(events.at(i), step, recipe.steps, recipe.source.size));
+    recipe.events.push_back(read_event(events.at(i), step, recipe.steps, recipe.source.size, held));
     step = recipe.events.back().step;
+    if (const auto* change = std::get_if<DriveEvent>(&recipe.events.back().what))
+      held = constraints_of(change->drive);
   }
   return recipe;
 }
@@ -375,11 +405,11 @@ Recipe read_recipe(const JsonField& field) {
 Json wanted_drive_json(const Drive& drive) {
   Drive without = drive;
   without.constraints.reset();
-  return to_json(without);
+  return to_json(without, nullptr);
 }
 
 std::shared_ptr<const Drive> read_wanted_drive(const JsonField& field, const Recipe& recipe) {
-  Drive drive = read_drive(field, recipe.source.size);
+  Drive drive = read_drive(field, recipe.source.size, nullptr);
   drive.constraints = value_of(recipe.final_drive()).constraints;
   return std::make_shared<const Drive>(std::move(drive));
 }

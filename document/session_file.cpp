@@ -332,10 +332,10 @@ struct OpenedSession {
   JsonDocument json;
 };
 
-Result<OpenedSession> open_session(const std::filesystem::path& file) {
+// `name`: of the file, for messages.
+Result<OpenedSession> open_session(const std::filesystem::path& file, const std::string& name) {
   auto archive = ZipReader::open(file, session_entry_names());
   if (!archive) return pass_on(archive);
-  const std::string name = file.string();
   const JsonLimits limits = json_limits(archive->packed_size(kJson));
   if (archive->size(kJson) > limits.bytes) {
     return fail(ErrorKind::input, "{}: {} has {} bytes, more than {} are not read", name, kJson,
@@ -353,6 +353,33 @@ Result<OpenedSession> open_session(const std::filesystem::path& file) {
   return OpenedSession{std::move(*archive), std::move(*text), std::move(*json)};
 }
 
+// All that its text says; voxels are still to be read.
+SessionContents read_text(const JsonField& root, const std::filesystem::path& file) {
+  SessionContents contents;
+  contents.origin = read_study(root.at("study"), file);
+  contents.geometry = read_geometry(root.at("grid"));
+  contents.recipe = read_recipe(root.at("recipe"));
+  if (root.has("wanted_drive"))
+    contents.wanted_drive = read_wanted_drive(root.at("wanted_drive"), contents.recipe);
+  contents.labels = read_labels(root.at("labels"));
+  if (root.has("curve")) contents.curve = read_curve(root.at("curve"));
+  contents.view_state = root.at("view_state").text(kLongestViewState);
+  if (root.has("images")) contents.images = read_images(root.at("images"), file);
+  if (root.good() && contents.recipe.source.size != contents.geometry.size) {
+    root.at("recipe").wrong("is of another grid");
+  }
+  return contents;
+}
+
+// What could not be read again is not written: its text is read as load_session() will.
+Status check_written(const std::filesystem::path& written, const std::filesystem::path& file) {
+  const auto again = open_session(written, file.string());
+  if (!again) return pass_on(again);
+  const JsonField root = root_of(again->json, file.string());
+  static_cast<void>(read_text(root, file));
+  return root.status();
+}
+
 }  // namespace
 
 std::span<const std::string_view> session_entry_names() {
@@ -363,10 +390,6 @@ std::span<const std::string_view> session_entry_names() {
 
 Status write_session(const SessionContents& contents, const std::filesystem::path& file, InFile what) {
   const std::string json = session_json(contents, file).dump(-1, ' ', false, Json::error_handler_t::replace);
-  // What could not be read again is not written.
-  if (const auto again = JsonDocument::parse(json, file.string(), json_limits(json.size())); !again) {
-    return fail(ErrorKind::write, "{}", again.error().message);
-  }
   const FieldBytes phi(*contents.phi);
   std::vector<ZipEntry> entries{
       {kJson, std::as_bytes(std::span(json))}, phi.tables_entry(kTable), phi.pages_entry(kPages)};
@@ -382,29 +405,20 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
   if (Status written = write_zip(whole->temporary_path(), entries); !written) {
     return fail(ErrorKind::write, "{}: {}", file.string(), written.error().message);
   }
+  if (Status readable = check_written(whole->temporary_path(), file); !readable) {
+    return fail(ErrorKind::write, "{}", readable.error().message);
+  }
   return whole->commit();
 }
 
 Result<SessionContents> load_session(const std::filesystem::path& file) {
-  auto opened = open_session(file);
-  if (!opened) return pass_on(opened);
   const std::string name = file.string();
+  auto opened = open_session(file, name);
+  if (!opened) return pass_on(opened);
   const JsonField root = root_of(opened->json, name);
-  SessionContents contents;
-  contents.origin = read_study(root.at("study"), file);
-  contents.geometry = read_geometry(root.at("grid"));
-  contents.recipe = read_recipe(root.at("recipe"));
-  if (root.has("wanted_drive"))
-    contents.wanted_drive = read_wanted_drive(root.at("wanted_drive"), contents.recipe);
-  contents.labels = read_labels(root.at("labels"));
-  if (root.has("curve")) contents.curve = read_curve(root.at("curve"));
-  contents.view_state = root.at("view_state").text(kLongestViewState);
-  if (root.has("images")) contents.images = read_images(root.at("images"), file);
+  SessionContents contents = read_text(root, file);
   const PlacesOfDrives maps = read_places_of_drives(root, "maps", file);
   const PlacesOfDrives images = read_places_of_drives(root, "image_places", file);
-  if (root.good() && contents.recipe.source.size != contents.geometry.size) {
-    root.at("recipe").wrong("is of another grid");
-  }
   if (!root.good()) return pass_on(root.status());
   auto phi = read_phi(opened->archive, root.at("phi"), contents.geometry, name);
   if (!phi) return pass_on(phi);
@@ -417,7 +431,7 @@ Result<SessionContents> load_session(const std::filesystem::path& file) {
 }
 
 Result<StudyOrigin> load_origin(const std::filesystem::path& file) {
-  const auto opened = open_session(file);
+  const auto opened = open_session(file, file.string());
   if (!opened) return pass_on(opened);
   const JsonField root = root_of(opened->json, file.string());
   StudyOrigin origin = read_study(root.at("study"), file);

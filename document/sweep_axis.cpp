@@ -3,21 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "core/number_from.h"
 #include "solver/speed/speed_registry.h"
 
 namespace tidemark::document {
 namespace {
-
-std::optional<double> number_in(std::string_view text) {
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stopped != end || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
 
 bool uses(const solver::SpeedSetting& setting, std::string_view function) {
   return std::any_of(setting.terms.begin(), setting.terms.end(),
@@ -56,7 +48,7 @@ Status check(const SweepAxis& axis, solver::Parameters parameters, solver::Speed
 double SweepAxis::value(int index) const {
   if (count < 2) return from;
   const double exact = from + (to - from) * index / (count - 1);
-  return number_in(fmt::format("{:.12g}", exact)).value_or(exact);
+  return number_from<double>(fmt::format("{:.12g}", exact)).value_or(exact);
 }
 
 Result<SweepAxis> parse_sweep_axis(std::string_view text) {
@@ -69,11 +61,11 @@ Result<SweepAxis> parse_sweep_axis(std::string_view text) {
   SweepAxis axis{std::string(text.substr(0, equal))};
   for (const auto& [part, number] : {std::pair(text.substr(equal + 1, first - equal - 1), &axis.from),
                                      std::pair(text.substr(first + 1, second - first - 1), &axis.to)}) {
-    const auto read = number_in(part);
+    const auto read = number_from<double>(part);
     if (!read) return fail(ErrorKind::usage, "{}: '{}' is not a finite number", text, part);
     *number = *read;
   }
-  const auto count = number_in(text.substr(second + 1));
+  const auto count = number_from<double>(text.substr(second + 1));
   if (!count || *count != std::round(*count) || *count < 2 || *count > SweepAxis::kMostValues) {
     return fail(ErrorKind::usage, "{}: '{}' is not a whole number from 2 to {}", text,
                 text.substr(second + 1), SweepAxis::kMostValues);

@@ -6,11 +6,10 @@
 #include <deque>
 #include <utility>
 
+#include "core/deflate_ratio.h"
+
 namespace tidemark::document {
 namespace {
-
-// Deflate makes at most so many bytes of one.
-constexpr std::size_t kMostPerByte = 1032;
 
 std::string reason(int code) {
   zip_error_t error;
@@ -122,7 +121,7 @@ Status ZipReader::unpack(std::string_view name, std::size_t bytes, const imaging
   if (static_cast<std::size_t>(record.bytes) != bytes) {
     return fail(ErrorKind::input, "{}: {} has {} bytes instead of {}", file_, name, record.bytes, bytes);
   }
-  if (static_cast<std::int64_t>(bytes / kMostPerByte) > record.packed) {
+  if (static_cast<std::int64_t>(bytes / kBestDeflateRatio) > record.packed) {
     return fail(ErrorKind::input, "{}: {} cannot hold {} bytes", file_, name, bytes);
   }
   if (const Status unpacked = directory_->unpack(record, take); !unpacked)

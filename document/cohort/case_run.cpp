@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
+#include <span>
 #include <thread>
 
 #include "core/atomic_file.h"
@@ -58,6 +59,7 @@ class Case {
   Status evolve();
   void warn(const document::Evolution& evolution);
   Status write();
+  void remark_frame(const char* column, std::span<const std::string> named);
 
   const CaseRun& run_;
   const WorkRow& row_;
@@ -173,11 +175,18 @@ Status Case::fill_in() {
   return suggest();
 }
 
+// Where the file in that column names another frame of reference than the study.
+void Case::remark_frame(const char* column, std::span<const std::string> named) {
+  if (const auto remark = imaging::frame_remark(named, series_.frame_of_reference_uid))
+    status_.remarks.push_back(fmt::format("{}: {}", column, *remark));
+}
+
 Status Case::start_from_mask() {
   if (row_.mask.empty()) return {};
   auto loaded = imaging::load_any_mask(row_.mask, &source_->geometry, progress_);
   if (!loaded) return pass_on(loaded);
   for (const std::string& change : loaded->changes) status_.remarks.push_back("mask: " + change);
+  remark_frame("mask", loaded->frames_of_reference);
   document::MaskStart start{std::make_shared<const Mask>(std::move(loaded->mask)),
                             row_.mask.filename().string()};
   const auto within_mm = row_.within_mm       ? row_.within_mm
@@ -206,6 +215,7 @@ Status Case::set_drive() {
   if (!row_.speed_map.empty()) {
     auto map = document::load_speed_map(row_.speed_map, source_->geometry, progress_);
     if (!map) return pass_on(map);
+    remark_frame("speed_map", {&(*map)->frame_of_reference_uid, 1});
     drive.map = std::move(*map);
   }
   if (!is_plain(drive)) recipe_.drive = std::make_shared<const document::Drive>(std::move(drive));

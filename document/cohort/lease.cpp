@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <climits>
 #include <fstream>
 #include <string_view>
@@ -15,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/number_from.h"
 #include "core/text_file.h"
 
 namespace tidemark::cohort {
@@ -62,12 +62,11 @@ bool holder_has_ended(const fs::path& file) {
   const std::size_t second = text->find('\n', first == std::string::npos ? first : first + 1);
   if (second == std::string::npos || text->substr(0, first) != this_machine()) return false;
   const std::string_view number = std::string_view(*text).substr(first + 1, second - first - 1);
-  long process = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), process);
-  if (error != std::errc() || end != number.data() + number.size() || process <= 0) return false;
-  if (::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) return true;
+  const auto process = number_from<pid_t>(number);
+  if (!process || *process <= 0) return false;
+  if (::kill(*process, 0) != 0 && errno == ESRCH) return true;
   const std::string began = text->substr(second + 1, text->find('\n', second + 1) - second - 1);
-  const std::string now = start_of(process);  // systems may hide the processes of other users
+  const std::string now = start_of(*process);  // systems may hide the processes of other users
   return !now.empty() && now != began;
 }
 
@@ -76,11 +75,9 @@ bool drafter_has_ended(const std::string& name) {
   const std::size_t last = name.rfind('.');
   const std::size_t before = last == 0 || last == std::string::npos ? last : name.rfind('.', last - 1);
   if (before == std::string::npos || before == 0) return false;
-  long process = 0;
-  const auto [end, error] = std::from_chars(name.data() + before + 1, name.data() + last, process);
+  const auto process = number_from<pid_t>(std::string_view(name).substr(before + 1, last - before - 1));
   const bool is_ours = name.substr(1, before - 1) == this_machine();
-  return is_ours && error == std::errc() && end == name.data() + last && process > 0 &&
-         ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+  return is_ours && process && *process > 0 && ::kill(*process, 0) != 0 && errno == ESRCH;
 }
 
 double seconds_of(const timespec& time) {

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <unordered_map>
 
+#include "core/base64.h"
 #include "core/text_file.h"
 
 namespace tidemark::cohort {
@@ -45,7 +46,7 @@ std::string picture_of(const CohortFolder& folder, const CaseStatus& status, Pag
   if (pictures == PagePictures::embed) {
     const auto bytes = read_text_file(folder.case_folder(status.id) / name, kLargestPicture);
     if (!bytes) return {};
-    source = "data:image/png;base64," + base64(*bytes);
+    source = "data:image/png;base64," + to_base64(*bytes);
   }
   return fmt::format(
       "<img loading=\"lazy\" decoding=\"async\" alt=\"Three slices with the outline, and the surface\" "
@@ -146,23 +147,6 @@ std::string html_text(std::string_view text) {
     }
   }
   return html;
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t three = 0;
-    for (std::size_t b = 0; b < 3; ++b) {
-      three = three << 8 | (b < count ? static_cast<unsigned char>(bytes[i + b]) : 0U);
-    }
-    for (std::size_t digit = 0; digit < 4; ++digit) {
-      text += digit <= count ? kDigits[three >> (18 - 6 * digit) & 63U] : '=';
-    }
-  }
-  return text;
 }
 
 PagePictures suitable_pictures(const CohortFolder& folder, const Review& review) {

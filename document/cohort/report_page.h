@@ -21,8 +21,6 @@ struct PagePart {
 // Text as HTML shows it: no tag, no attribute and no script comes of it.
 [[nodiscard]] std::string html_text(std::string_view text);
 
-[[nodiscard]] std::string base64(std::string_view bytes);
-
 // Where the pictures of cases are.
 enum class PagePictures {
   embed,  // in the page

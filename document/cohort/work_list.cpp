@@ -1,13 +1,14 @@
 #include "document/cohort/work_list.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <functional>
 #include <map>
 
 #include "core/csv.h"
+#include "core/number_from.h"
 #include "core/text_file.h"
+#include "document/file_limits.h"
+#include "imaging/filters/filters.h"
 
 namespace tidemark::cohort {
 namespace {
@@ -15,15 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestId = 100;
-constexpr std::int64_t kMostSteps = 1'000'000'000;
 
 using Problem = std::string;  // empty: none
-
-template <class Number>
-bool read_whole(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -36,10 +30,12 @@ Problem read_numbers(const std::string_view text, double* numbers, std::size_t c
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t comma = i + 1 < count ? rest.find(',') : rest.size();
     const std::string_view one = trimmed(rest.substr(0, comma));
-    if (comma == std::string_view::npos || !read_whole(one, numbers[i]) || !std::isfinite(numbers[i])) {
+    const auto number = number_from<double>(one);
+    if (comma == std::string_view::npos || !number) {
       return count == 1 ? fmt::format("'{}' is not a number", text)
                         : fmt::format("'{}' is not {} numbers with commas between", text, count);
     }
+    numbers[i] = *number;
     rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
   return {};
@@ -67,9 +63,9 @@ Column number_column(const char* name, std::optional<double> WorkRow::*member) {
 
 Column count_column(const char* name, std::optional<std::int64_t> WorkRow::*member) {
   const auto read = [member](WorkRow& row, std::string_view text) -> Problem {
-    std::int64_t count = 0;
-    if (!read_whole(text, count) || count < 0 || count > kMostSteps) {
-      return fmt::format("'{}' is not a whole number from 0 to {}", text, kMostSteps);
+    const auto count = number_from<std::int64_t>(text);
+    if (!count || *count < 0 || *count > document::kMostSteps) {
+      return fmt::format("'{}' is not a whole number from 0 to {}", text, document::kMostSteps);
     }
     row.*member = count;
     return {};
@@ -281,10 +277,13 @@ std::vector<std::string> problems_of_values(const WorkRow& row) {
   unless(!row.range || *row.range > 0.0, "range: must be greater than 0");
   unless(!row.alpha || (*row.alpha >= 0.0 && *row.alpha <= 1.0), "alpha: must be 0 to 1");
   unless(!row.smooth_mm || *row.smooth_mm >= 0.0, "smooth_mm: must not be below 0");
+  unless(!row.smooth_mm || *row.smooth_mm <= imaging::kMostSmoothing_mm,
+         fmt::format("smooth_mm: must be at most {}", imaging::kMostSmoothing_mm));
   unless(!row.steps || !row.max_steps, "steps, max_steps: only one of them can be given");
-  unless(!row.steps || *row.steps <= kMostSteps, fmt::format("steps: must be at most {}", kMostSteps));
-  unless(!row.max_steps || (*row.max_steps > 0 && *row.max_steps <= kMostSteps),
-         fmt::format("max_steps: must be 1 to {}", kMostSteps));
+  unless(!row.steps || *row.steps <= document::kMostSteps,
+         fmt::format("steps: must be at most {}", document::kMostSteps));
+  unless(!row.max_steps || (*row.max_steps > 0 && *row.max_steps <= document::kMostSteps),
+         fmt::format("max_steps: must be 1 to {}", document::kMostSteps));
   unless(!row.levels || (*row.levels >= 1 && *row.levels <= 3), "levels: must be 1 to 3");
   return problems;
 }

@@ -79,7 +79,6 @@ class CohortReviewTest : public QObject {
   void the_page_of_another_plan_or_result_has_another_mark();
   void text_of_a_hostile_case_stays_text();
   void a_table_holds_no_formula();
-  void base64_is_that_of_rfc_4648();
   void pictures_are_in_the_page();
   void decisions_are_read_back();
   void wrong_decisions_are_named_by_line_data();
@@ -235,14 +234,6 @@ void CohortReviewTest::a_table_holds_no_formula() {
       QVERIFY2(field.empty() || std::string("=@").find(field[0]) == std::string::npos, field.c_str());
     }
   }
-}
-
-void CohortReviewTest::base64_is_that_of_rfc_4648() {
-  QCOMPARE(cohort::base64(""), std::string());
-  QCOMPARE(cohort::base64("f"), std::string("Zg=="));
-  QCOMPARE(cohort::base64("fo"), std::string("Zm8="));
-  QCOMPARE(cohort::base64("foo"), std::string("Zm9v"));
-  QCOMPARE(cohort::base64("foobar\xff"), std::string("Zm9vYmFy/w=="));
 }
 
 void CohortReviewTest::pictures_are_in_the_page() {

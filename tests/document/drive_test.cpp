@@ -100,6 +100,21 @@ class DriveTest : public QObject {
     QVERIFY(!level_set.executor().speed());
   }
 
+  void a_state_knows_what_drives_and_holds_it() {
+    auto document = begun_case();
+    document::Drive drive = with_wall(*document, {6.0, 0.0, 0.0}, 3.0);
+    drive.setting.terms = {{"tent", {}}, {"edges", {}}};
+    drive.setting.combine = solver::Combine::product;
+    QCOMPARE(failure(document->level_set().set_drive(drive)), QString());
+    QCOMPARE(failure(document->history().close()), QString());
+    const auto states = document->history().states();
+    QVERIFY(states.front().steering.drive == document::DriveSummary());
+    const document::DriveSummary& known = states.back().steering.drive;
+    QVERIFY(known.setting == drive.setting);
+    QVERIFY(known.has_walls && !known.has_anchors);
+    QCOMPARE(document::describe(drive), std::string("the product of tent and edges, walls"));
+  }
+
   void a_setting_that_makes_no_sense_changes_nothing() {
     auto document = begun_case();
     document::Drive drive;

@@ -1,5 +1,6 @@
 // The history as a tree: who goes back and on otherwise loses nothing, and every state is there again to the
 // last bit.
+#include <algorithm>
 #include <map>
 #include <random>
 
@@ -37,6 +38,56 @@ document::HistoryState state_of(const document::History& history, std::uint64_t 
     if (state.id == id) return state;
   }
   qFatal("no such state");
+}
+
+// Of a size alone; counts how often it is asked for.
+class SizedChange : public document::Change {
+ public:
+  SizedChange(std::int64_t bytes, std::int64_t* asked) : bytes_(bytes), asked_(asked) {}
+  Status undo() override { return {}; }
+  Status redo() override { return {}; }
+  [[nodiscard]] std::int64_t bytes() const override {
+    ++*asked_;
+    return bytes_;
+  }
+
+ private:
+  std::int64_t bytes_;
+  std::int64_t* asked_;
+};
+
+// States of 1 to 9 bytes each on random branches.
+document::History random_history(std::mt19937& random, int states, std::int64_t* asked) {
+  document::History history;
+  for (int n = 0; n < states; ++n) {
+    const std::uint64_t most = history.states().back().id;
+    if (random() % 3 == 0 && !history.go_to(random() % (most + 1))) qFatal("no such state");
+    history.add({}, std::make_unique<SizedChange>(1 + random() % 9, asked));
+  }
+  return history;
+}
+
+std::vector<std::uint64_t> ids_of(const document::History& history) {
+  std::vector<std::uint64_t> ids;
+  for (const document::HistoryState& state : history.states()) ids.push_back(state.id);
+  return ids;
+}
+
+// The end of a branch that is dropped first.
+std::optional<std::uint64_t> farthest_end(const document::History& history) {
+  const std::vector<document::HistoryState> states = history.states();
+  std::optional<std::uint64_t> found;
+  std::size_t most = 0;
+  for (const document::HistoryState& state : states) {
+    const bool is_end = std::none_of(states.begin(), states.end(), [&](const document::HistoryState& other) {
+      return other.parent == state.id;
+    });
+    const std::size_t away = history.distance(history.last_state(), state.id);
+    if (!is_end || !state.parent || away <= most) continue;
+    most = away;
+    found = state.id;
+  }
+  return found;
 }
 
 }  // namespace
@@ -191,6 +242,46 @@ class HistoryTreeTest : public QObject {
     QCOMPARE(failure(history.undo()), QString());
     QCOMPARE(history.undo().error().kind, ErrorKind::usage);
     QCOMPARE(level_set.step(), std::int64_t{5});
+  }
+
+  void states_are_dropped_in_the_order_of_their_distance() {
+    std::mt19937 random(3);
+    for (int round = 0; round < 20; ++round) {
+      std::int64_t asked = 0;
+      document::History history = random_history(random, 40, &asked);
+      if (round % 2 == 0) QCOMPARE(failure(history.go_to(random() % 41)), QString());
+      // As they go one by one.
+      std::vector<std::vector<std::uint64_t>> left;
+      std::vector<std::int64_t> bytes;
+      document::History one_by_one = history;
+      while (const auto end = farthest_end(one_by_one)) {
+        one_by_one.set_limit(one_by_one.bytes() - 1);
+        QVERIFY(!one_by_one.has(*end));
+        left.push_back(ids_of(one_by_one));
+        bytes.push_back(one_by_one.bytes());
+      }
+      // Several at once.
+      for (std::size_t n = 0; n < bytes.size(); n += 3) {
+        document::History at_once = history;
+        at_once.set_limit(bytes[n]);
+        QVERIFY(ids_of(at_once) == left[n]);
+        QCOMPARE(at_once.bytes(), bytes[n]);
+      }
+      const std::uint64_t present = history.last_state();
+      history.set_limit(0);
+      QVERIFY(history.has(present) && history.states().size() <= 2);
+    }
+  }
+
+  void dropping_many_states_asks_each_for_its_size_a_few_times() {
+    std::int64_t asked = 0;
+    document::History history;
+    constexpr std::int64_t kStates = 400;
+    for (std::int64_t n = 0; n < kStates; ++n) history.add({}, std::make_unique<SizedChange>(1, &asked));
+    asked = 0;
+    history.set_limit(10);
+    QCOMPARE(history.states().size(), std::size_t{11});
+    QVERIFY2(asked <= 3 * kStates, qPrintable(QString::number(asked)));
   }
 
   // Its function comes between two entries, when branches begin there already.

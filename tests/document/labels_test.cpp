@@ -31,6 +31,25 @@ class LabelsTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void a_stroke_that_changes_nothing_leaves_redo() {
+    document::History history;
+    document::Labels labels(small_grid(), &history);
+    const std::uint8_t liver = labels.add("Liver").value();
+    const Region liver_region = box({0, 0, 0}, {3, 3, 3});
+    QCOMPARE(failure(labels.accept(liver_region, liver)), QString());
+    const std::uint64_t accepted = history.position();
+    const std::uint64_t revision = labels.revision();
+    QCOMPARE(failure(labels.accept(liver_region, liver)), QString());
+    QCOMPARE(history.position(), accepted);
+    QCOMPARE(labels.revision(), revision);
+    QCOMPARE(failure(history.undo()), QString());
+    const std::uint64_t before = history.position();
+    QCOMPARE(failure(labels.brush({liver, {}, box({6, 6, 6}, {7, 7, 7})}, document::Labels::Stroke::erases)),
+             QString());
+    QCOMPARE(history.position(), before);
+    QVERIFY(history.redo_description());
+  }
+
   void labels_become_segments_and_come_back() {
     document::Labels labels(small_grid());
     const std::uint8_t liver = labels.add("Liver").value();

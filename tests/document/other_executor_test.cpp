@@ -28,6 +28,53 @@ class OtherExecutorTest : public QObject {
     QVERIFY(Seen(level_set) == painted);
   }
 
+  void a_replay_and_a_step_back_change_the_executor_where_it_was_changed() {
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    run(level_set, 20);
+    const std::vector<float> at_20 = values_of(level_set);
+    run(level_set, 20);
+    QCOMPARE(failure(level_set.change_executor(solver::ExecutorKind::stream, {})), QString());
+    run(level_set, 40);
+    const document::Recipe all = level_set.recipe();
+    QCOMPARE(all.executor.name, std::string("host"));
+    QCOMPARE(all.final_executor().name, std::string("stream"));
+    QVERIFY(again(all).events == all.events);
+    QVERIFY(replayed(again(all), document->volume()) == values_of(level_set));
+    // The one that was chosen goes on from what the other one has made.
+    QCOMPARE(failure(level_set.step_back(60)), QString());
+    QCOMPARE(level_set.executor().name(), std::string_view("stream"));
+    QVERIFY(values_of(level_set) == at_20);
+    run(level_set, 10);
+    const std::vector<float> at_30 = values_of(level_set);
+    QVERIFY(replayed(again(level_set.recipe()), document->volume()) == at_30);
+    run(level_set, 5);
+    QCOMPARE(failure(level_set.step_back(5)), QString());
+    QVERIFY(values_of(level_set) == at_30);
+    // Before the first step there is nothing to tell apart.
+    QCOMPARE(failure(level_set.restart()), QString());
+    run(level_set, 10);
+    QCOMPARE(level_set.recipe().executor.name, std::string("stream"));
+    QVERIFY(level_set.recipe().events.empty());
+  }
+
+  void a_recipe_on_another_executor_is_computed_by_that_alone() {
+    const auto document = begun_case();
+    document::LevelSet& level_set = document->level_set();
+    run(level_set, 5);
+    QCOMPARE(failure(level_set.change_executor(solver::ExecutorKind::stream, {})), QString());
+    run(level_set, 5);
+    const document::Recipe mixed = level_set.recipe();
+    document::Recipe alone = mixed;
+    alone.set_executor(mixed.executor);
+    QCOMPARE(alone.final_executor().name, std::string("host"));
+    document::EvolutionOptions on_host;
+    on_host.executor = solver::ExecutorKind::host;
+    const document::Evolution wanted = evolved(mixed, document->volume(), on_host);
+    QCOMPARE(wanted.executor.name, std::string("host"));
+    QVERIFY(wanted.phi.dense() == replayed(again(alone), document->volume()));
+  }
+
   void a_lost_gpu_gives_way_to_the_processor() {
     solver::ExecutorOptions options;
     options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
@@ -131,6 +178,29 @@ class OtherExecutorTest : public QObject {
     QCOMPARE(level_set.step(), std::int64_t{10});
     run(level_set, 5);
     QCOMPARE(failure(level_set.executor().validate()), QString());
+    while (document->undo()) {
+    }
+    QVERIFY(!level_set.begun());
+  }
+
+  void a_recipe_has_no_step_that_was_lost_where_another_executor_goes_on() {
+    solver::ExecutorOptions options;
+    options.device = gpu::Device::create_headless({gpu::GlVersion::gl45, false}).value();
+    const auto document = begun_case(solver::ExecutorKind::compute, options);
+    document::LevelSet& level_set = document->level_set();
+    run(level_set, 10);
+    QVERIFY(level_set.checkpoint());
+    const Seen known(level_set);
+    run(level_set, 3);
+    options.device->lose_at_check(1);
+    QVERIFY(!level_set.advance({.steps = 5}));
+    QCOMPARE(level_set.end_run().error().kind, ErrorKind::capability);
+    QCOMPARE(failure(level_set.change_executor(solver::ExecutorKind::host, {})), QString());
+    QCOMPARE(level_set.executor().name(), std::string_view("host"));
+    QCOMPARE(level_set.step(), std::int64_t{10});
+    QVERIFY(Seen(level_set) == known);
+    run(level_set, 5);
+    QCOMPARE(level_set.recipe().steps, std::int64_t{15});
     while (document->undo()) {
     }
     QVERIFY(!level_set.begun());

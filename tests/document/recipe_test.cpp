@@ -243,7 +243,7 @@ class RecipeTest : public QObject {
     row(
         "format", [](Json& j) { j["format"] = "recipe"; }, "format: ");
     row(
-        "version 4", [](Json& j) { j["version"] = 4; }, "version: this version");
+        "version 5", [](Json& j) { j["version"] = 5; }, "version: this version");
     row(
         "version text", [](Json& j) { j["version"] = "1"; }, "version: not a whole number");
     row(

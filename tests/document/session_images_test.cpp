@@ -262,16 +262,57 @@ class SessionImagesTest : public QObject {
     QVERIFY(!cancelled && cancelled.error().kind == ErrorKind::cancelled);
   }
 
-  void bad_images_are_refused_with_their_field() {
+  // The image ends in the middle of the first region, and before the second.
+  void an_image_is_measured_only_where_it_is() {
+    auto study = std::make_shared<Volume>();
+    study->geometry.size = Index3(16);
+    study->voxels = std::vector<float>(static_cast<std::size_t>(study->geometry.voxel_count()), 0.0F);
+    Volume pet;
+    pet.geometry.size = {16, 16, 8};
+    pet.unit = "SUVbw g/ml";
+    std::vector<float> values;
+    for (std::int64_t n = 0; n < pet.geometry.voxel_count(); ++n)
+      values.push_back(n == 0 ? 1.0F : pet.geometry.voxel_at(n).z < 6 ? 5.0F : 6.0F);
+    pet.voxels = std::move(values);
+    auto image = std::make_shared<document::CaseImage>();
+    image->name = "PET";
+    image->volume = std::make_shared<const Volume>(std::move(pet));
+    const auto images = document::images_on(study->geometry, {"study", study}, {image});
+    QVERIFY(images);
+    const auto measured = [&](std::int64_t low, std::int64_t high) {
+      return document::measure(whole({Index3(5, 5, low), Index3(11, 11, high)}), study->geometry, *images);
+    };
+    const auto half = measured(4, 12);
+    QCOMPARE(failure(half), QString());
+    QCOMPARE(half->images.size(), std::size_t{2});
+    QCOMPARE(half->images.front().covered, 1.0);
+    const document::ImageValues& of_pet = half->images.back();
+    QCOMPARE(of_pet.covered, 0.5);
+    QCOMPARE(of_pet.values.smallest, 5.0);
+    QCOMPARE(of_pet.values.largest, 6.0);
+    QCOMPARE(of_pet.values.mean, 5.5);
+    QCOMPARE(of_pet.values.standard_deviation, 0.5);
+    QVERIFY(of_pet.values.uptake->peak > 5.3 && of_pet.values.uptake->peak <= 6.0);
+    QCOMPARE(of_pet.values.uptake->total_glycolysis, 5.5 * 6 * 6 * 4 * 0.001);
+    QCOMPARE(document::to_json(*half)["images"][1]["covered"].get<double>(), 0.5);
+    const auto beyond = measured(10, 14);
+    QCOMPARE(failure(beyond), QString());
+    QCOMPARE(beyond->images.size(), std::size_t{1});
+    // Speed functions see the image's minimum there, as before.
+    QCOMPARE(document::on_grid(*image, study->geometry).value()->value({8, 8, 12}), 1.0F);
+  }
+
+  void bad_images_are_not_written_over_good_ones() {
     const SavedCase saved;
     document::SessionContents contents = loaded(saved.session);
     auto bad = std::make_shared<document::CaseImage>(*contents.images.front());
     bad->to_case[0] = {2.0, 0.0, 0.0, 0.0};
     contents.images = {bad};
-    QCOMPARE(failure(document::write_session(contents, saved.session)), QString());
-    const auto read = document::load_session(saved.session);
-    QVERIFY(!read);
-    QVERIFY2(failure(read).contains("images[0].to_case: does not keep lengths"), qPrintable(failure(read)));
+    const Status written = document::write_session(contents, saved.session);
+    QVERIFY2(failure(written).contains("images[0].to_case: is not a rotation and a shift"),
+             qPrintable(failure(written)));
+    QCOMPARE(written.error().kind, ErrorKind::write);
+    QCOMPARE(failure(document::load_session(saved.session)), QString());
   }
 };
 

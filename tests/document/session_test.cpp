@@ -312,6 +312,33 @@ class SessionTest : public QObject {
     QVERIFY(document->changed_since_save());
   }
 
+  // Names of one letter deflate to nearly nothing: what counts is what the reader will have to read.
+  void a_session_with_more_text_than_is_read_is_not_written() {
+    const TemporaryFolder folder;
+    auto contents = document::snapshot_of(*labelled_case()).value();
+    document::CaseImage image;
+    image.name = std::string(std::size_t{1} << 20, 'a');
+    contents.images.assign(40, std::make_shared<const document::CaseImage>(image));
+    const Status written = document::write_session(contents, folder / "one.tidemark");
+    QVERIFY(!written);
+    QCOMPARE(written.error().kind, ErrorKind::write);
+    QVERIFY2(failure(written).contains("one.tidemark: session.json has "), qPrintable(failure(written)));
+    QVERIFY(std::filesystem::is_empty(folder.path()));
+    contents.images.resize(10);
+    QCOMPARE(failure(document::write_session(contents, folder / "one.tidemark")), QString());
+    QCOMPARE(failure(document::load_session(folder / "one.tidemark")), QString());
+  }
+
+  void a_study_at_a_map_s_coordinates_comes_back() {
+    const TemporaryFolder folder;
+    auto contents = document::snapshot_of(*labelled_case()).value();
+    contents.geometry.origin_mm = {4.5e9, -2e7, 0.0};
+    QCOMPARE(failure(document::write_session(contents, folder / "one.tidemark")), QString());
+    const auto read = document::load_session(folder / "one.tidemark");
+    QCOMPARE(failure(read), QString());
+    QCOMPARE(read->geometry, contents.geometry);
+  }
+
   void a_bad_session_is_refused_data() {
     QTest::addColumn<int>("spoiler");
     QTest::addColumn<QString>("says");

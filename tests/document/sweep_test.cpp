@@ -68,6 +68,9 @@ class SweepTest : public QObject {
     const auto negative = document::parse_sweep_axis("target=-100:40:8");
     QCOMPARE(failure(negative), QString());
     QCOMPARE(negative->value(7), 40.0);
+    const auto with_plus = document::parse_sweep_axis("alpha=+0:+1:3");
+    QCOMPARE(failure(with_plus), QString());
+    QCOMPARE(with_plus->value(2), 1.0);
   }
 
   void a_bad_axis_is_refused_by_its_part_data() {
