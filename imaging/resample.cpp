@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -84,18 +83,16 @@ bool interpolate(const Geometry& image, const Voxel* voxels, glm::dvec3 place, d
   return true;
 }
 
-// Fills the rows of the result where the image covers them; returns how many voxels that are.
+// Fills the rows of the result where the image covers them.
 template <class Voxel>
-Result<std::int64_t> fill(const Volume& image, const std::vector<Voxel>& voxels, const VoxelMap& map,
-                          const Geometry& grid, std::vector<float>& values, const Progress& progress) {
+Status fill(const Volume& image, const std::vector<Voxel>& voxels, const VoxelMap& map, const Geometry& grid,
+            std::vector<float>& values, Region& covered, const Progress& progress) {
   ThreadPool pool;
-  std::atomic<std::int64_t> covered{0};
   // One slice after another, so that progress and cancelling need no thread of the pool.
   for (std::int64_t k = 0; k < grid.size.z; ++k) {
     if (progress.cancelled()) return cancelled_error();
     progress(static_cast<double>(k) / static_cast<double>(grid.size.z), "resampling");
     pool.for_each(grid.size.y, kRowsPerPiece, [&](std::int64_t begin, std::int64_t end, int) {
-      std::int64_t inside = 0;
       for (std::int64_t j = begin; j < end; ++j) {
         const glm::dvec3 row = map.linear * glm::dvec3(0.0, j, k) + map.shift;
         float* out = values.data() + grid.offset({0, j, k});
@@ -104,13 +101,12 @@ Result<std::int64_t> fill(const Volume& image, const std::vector<Voxel>& voxels,
           const glm::dvec3 place = row + static_cast<double>(i) * map.linear[0];
           if (!interpolate(image.geometry, voxels.data(), place, stored)) continue;
           out[i] = static_cast<float>(image.slope * stored + image.intercept);
-          ++inside;
+          covered.add({i, j, k});
         }
       }
-      covered += inside;
     });
   }
-  return covered.load();
+  return {};
 }
 
 }  // namespace
@@ -129,14 +125,15 @@ Result<Resampled> resample(const Volume& image, const glm::dmat4& transform, con
   try {
     const float background = outside ? *outside : image.range().first;
     auto values = make_large_vector(static_cast<std::size_t>(grid.voxel_count()), background);
-    const auto covered = std::visit(
-        [&](const auto& voxels) { return fill(image, voxels, *map, grid, values, progress); }, image.voxels);
-    if (!covered) return pass_on(covered);
-    if (*covered == 0) {
+    result.covered = Region(VoxelRange{Index3(0), grid.size});
+    const Status filled = std::visit(
+        [&](const auto& voxels) { return fill(image, voxels, *map, grid, values, result.covered, progress); },
+        image.voxels);
+    if (!filled) return pass_on(filled);
+    if (result.covered.empty()) {
       return fail(ErrorKind::usage, "{}: its {} lie elsewhere in the patient than the study's {}", what,
                   describe(image.geometry), describe(grid));
     }
-    result.covered = static_cast<double>(*covered) / static_cast<double>(grid.voxel_count());
     result.volume.voxels = std::move(values);
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::capability, "{}: not enough memory for it on {}", what, describe(grid));

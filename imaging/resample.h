@@ -6,13 +6,14 @@
 #include <string>
 
 #include "core/progress.h"
+#include "core/region.h"
 #include "core/volume.h"
 
 namespace tidemark::imaging {
 
 struct Resampled {
-  Volume volume;         // float, on the grid
-  double covered = 0.0;  // the part of the grid's voxels that the image covers, above 0
+  Volume volume;   // float, on the grid
+  Region covered;  // the grid's voxels that are in the image, one at least
 };
 
 // The image on the grid, trilinearly. Voxels outside of the image have its minimum, or `outside`. `transform`

@@ -3,6 +3,7 @@
 // begin with v2/ and know several models; servers without them have the one model nnInteractive.
 #include <algorithm>
 
+#include "core/base64.h"
 #include "core/json/json.h"
 #include "core/json/json_field.h"
 #include "imaging/ai/ai_protocol.h"

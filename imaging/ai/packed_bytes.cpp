@@ -3,7 +3,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include "core/typed_volume.h"
@@ -13,17 +12,6 @@ namespace {
 
 constexpr int kGzip = 15 + 16;                // the largest window, with a header of gzip
 constexpr std::size_t kMostAtOnce = 1 << 30;  // zlib counts in 32 bits
-
-constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-std::array<int, 256> digits_by_character() {
-  std::array<int, 256> digits{};
-  digits.fill(-1);
-  for (std::size_t i = 0; i < kDigits.size(); ++i) {
-    digits[static_cast<unsigned char>(kDigits[i])] = static_cast<int>(i);
-  }
-  return digits;
-}
 
 }  // namespace
 
@@ -77,30 +65,6 @@ std::optional<std::vector<std::uint8_t>> unpacked(std::string_view gzip, std::in
   }
   if (state != Z_STREAM_END || given != all.size()) return std::nullopt;
   return all;
-}
-
-std::optional<std::string> from_base64(std::string_view text) {
-  static const std::array<int, 256> kByCharacter = digits_by_character();
-  if (text.size() % 4 != 0) return std::nullopt;
-  std::size_t padding = 0;
-  while (padding < 2 && !text.empty() && text.back() == '=') {
-    text.remove_suffix(1);
-    ++padding;
-  }
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  std::uint32_t held = 0;
-  int bits = 0;
-  for (const char c : text) {
-    const int digit = kByCharacter[static_cast<unsigned char>(c)];
-    if (digit < 0) return std::nullopt;
-    held = held << 6 | static_cast<std::uint32_t>(digit);
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes += static_cast<char>(held >> bits & 0xffU);
-  }
-  return bytes;
 }
 
 }  // namespace tidemark::imaging

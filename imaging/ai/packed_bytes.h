@@ -1,10 +1,9 @@
-// Packed bytes as servers exchange them: gzip (RFC 1952) and Base64 (RFC 4648, section 4).
+// Bytes packed by gzip (RFC 1952), as servers exchange them.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,8 +19,5 @@ Status pack_values(const Volume& volume, const std::filesystem::path& file, cons
 // What a gzip stream holds where that is exactly so many bytes. Nothing where it is no such stream, or holds
 // more or less: no byte beyond them is unpacked.
 std::optional<std::vector<std::uint8_t>> unpacked(std::string_view gzip, std::int64_t bytes);
-
-// Nothing where it is no Base64.
-std::optional<std::string> from_base64(std::string_view text);
 
 }  // namespace tidemark::imaging

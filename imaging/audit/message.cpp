@@ -1,6 +1,5 @@
 #include "imaging/audit/message.h"
 
-#include <openssl/evp.h>
 #include <pwd.h>
 #include <unistd.h>
 
@@ -9,6 +8,8 @@
 #include <ctime>
 #include <utility>
 #include <vector>
+
+#include "core/base64.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -76,15 +77,6 @@ std::string shortened(std::string text, std::size_t most = kLongestValue) {
   while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) text.pop_back();
   if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80U) != 0) text.pop_back();
   return text + "...";
-}
-
-std::string base64(const std::string& bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int size =
-      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
-  text.resize(static_cast<std::size_t>(size));
-  return text;
 }
 
 // An element: its attributes in the order in which they come, and what is in it.
@@ -229,13 +221,14 @@ std::string patient_object(const AuditedStudy& study) {
 
 std::string query_object(const AuditEvent& event) {
   // A dataset that is cut is still one to its last whole element; no query of ours is as long.
-  const std::string query = "<ParticipantObjectQuery>" + base64(event.query.substr(0, kLongestAuditQuery)) +
+  const std::string query = "<ParticipantObjectQuery>" +
+                            to_base64(event.query.substr(0, kLongestAuditQuery)) +
                             "</ParticipantObjectQuery>";
   if (event.query_class.empty())
     return object("2", "3", event.peer.url, coded("ParticipantObjectIDTypeCode", kUri) + query);
   constexpr const char* kExplicitLittleEndian = "1.2.840.10008.1.2.1";
-  const std::string syntax = element("ParticipantObjectDetail",
-                                     {{"type", "TransferSyntax"}, {"value", base64(kExplicitLittleEndian)}});
+  const std::string syntax = element(
+      "ParticipantObjectDetail", {{"type", "TransferSyntax"}, {"value", to_base64(kExplicitLittleEndian)}});
   return object("2", "3", event.query_class,
                 coded("ParticipantObjectIDTypeCode", kClassUid) + query + syntax);
 }

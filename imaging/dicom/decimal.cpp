@@ -1,7 +1,6 @@
 #include "imaging/dicom/decimal.h"
 
-#include <charconv>
-#include <cmath>
+#include "core/number_from.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -14,25 +13,11 @@ std::string_view trimmed(std::string_view text) {
 }
 
 template <class Number>
-std::optional<Number> parse_one(std::string_view text) {
-  text = trimmed(text);
-  // from_chars knows no plus sign, and would take the minus of "+-1".
-  if (text.starts_with('+')) {
-    text.remove_prefix(1);
-    if (text.starts_with('-')) return std::nullopt;
-  }
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-template <class Number>
 std::optional<std::vector<Number>> parse_all(std::string_view text) {
   std::vector<Number> values;
   for (;;) {
     const std::size_t separator = text.find('\\');
-    const auto value = parse_one<Number>(text.substr(0, separator));
+    const auto value = number_from<Number>(trimmed(text.substr(0, separator)));
     if (!value) return std::nullopt;
     values.push_back(*value);
     if (separator == std::string_view::npos) return values;
@@ -43,13 +28,7 @@ std::optional<std::vector<Number>> parse_all(std::string_view text) {
 }  // namespace
 
 std::optional<std::vector<double>> parse_decimals(std::string_view text) {
-  auto values = parse_all<double>(text);
-  if (values) {
-    for (const double value : *values) {
-      if (!std::isfinite(value)) return std::nullopt;
-    }
-  }
-  return values;
+  return parse_all<double>(text);
 }
 
 std::optional<std::vector<long long>> parse_integers(std::string_view text) {

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/checked.h"
 #include "imaging/dicom/j2k_stream.h"
 #include "imaging/guard/dicom/transfer_syntaxes.h"
 

@@ -5,12 +5,11 @@
 #include <bit>
 #include <cstring>
 
+#include "core/deflate_ratio.h"
 #include "imaging/files/picture.h"
 
 namespace tidemark::imaging::files {
 namespace {
-
-constexpr std::int64_t kBestDeflateRatio = 1032;
 
 class PngPicture : public Picture {
  public:

@@ -8,6 +8,9 @@
 
 namespace tidemark::imaging {
 
+// What recipes, lessons and lists of cases can hold.
+inline constexpr double kMostSmoothing_mm = 1000.0;
+
 // Gaussian smoothing with standard deviation sigma_mm > 0 along every axis; the result is a float volume on
 // the same grid (ITK's recursive Gaussian).
 Result<Volume> smooth(const Volume& volume, double sigma_mm, const Progress& progress = {});

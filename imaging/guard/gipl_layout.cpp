@@ -1,7 +1,6 @@
 // The GIPL header (Guy's Image Processing Lab): 256 bytes, big endian, the magic number at its end.
 #include <bit>
 
-#include "core/checked.h"
 #include "imaging/guard/pixel_layout.h"
 
 namespace tidemark::imaging::files {

@@ -8,12 +8,11 @@
 #include <fstream>
 #include <memory>
 
+#include "core/deflate_ratio.h"
 #include "imaging/guard/text_voxels.h"
 
 namespace tidemark::imaging::files {
 namespace {
-
-constexpr std::int64_t kBestDeflateRatio = 1032;
 
 struct InflateEnd {
   void operator()(z_stream* stream) const { inflateEnd(stream); }

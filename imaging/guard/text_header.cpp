@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <string_view>
+
+#include "core/number_from.h"
 
 namespace tidemark::imaging::files {
 namespace {
@@ -146,11 +146,7 @@ Status require_finite_fields(const TextHeader& header, const std::filesystem::pa
       if (rest.empty()) break;
       const std::string_view word = rest.substr(0, rest.find_first_of(kBetween));
       rest.remove_prefix(word.size());
-      double number = 0.0;
-      const auto [end, error] =
-          std::from_chars(word.data() + (word[0] == '+'), word.data() + word.size(), number);
-      const bool whole = error == std::errc() && end == word.data() + word.size();
-      if (word != "none" && !(whole && std::isfinite(number))) {
+      if (word != "none" && !number_from<double>(word)) {
         return fail(ErrorKind::input, "{}: {}: '{}' is not a number", file.string(), name, word);
       }
     }

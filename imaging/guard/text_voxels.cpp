@@ -1,23 +1,15 @@
 #include "imaging/guard/text_voxels.h"
 
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <string_view>
+
+#include "core/number_from.h"
 
 namespace tidemark::imaging::files {
 namespace {
 
 // Longer than any number that a program would write.
 constexpr std::size_t kLongestNumber = 64;
-
-std::optional<double> number_in(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
 
 }  // namespace
 
@@ -34,7 +26,7 @@ Status read_text(const PixelLayout& layout, const std::function<Status(std::int6
     const bool is_blank = !more || c == ' ' || (c >= '\t' && c <= '\r');
     if (!is_blank && word.size() <= kLongestNumber) word.push_back(static_cast<char>(c));
     if (!is_blank || word.empty()) continue;
-    const auto number = number_in(word);
+    const auto number = number_from<double>(word);
     if (!number) return fail(ErrorKind::input, "{}: voxel {} is not a number", layout.file.string(), count);
     if (count < layout.voxels) {
       TIDEMARK_TRY(take(count, *number));

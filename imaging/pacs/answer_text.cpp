@@ -1,8 +1,8 @@
 #include "imaging/pacs/answer_text.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "core/number_from.h"
 #include "imaging/pacs/services.h"
 
 namespace tidemark::imaging {
@@ -32,10 +32,8 @@ std::string date_text(std::string text) {
 std::optional<std::int64_t> count_of(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);
   while (text.ends_with(' ')) text.remove_suffix(1);
-  std::int64_t number = 0;
-  const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || stopped != text.data() + text.size() || number < 0) return std::nullopt;
-  return number;
+  const auto number = number_from<std::int64_t>(text);
+  return number && *number >= 0 ? number : std::nullopt;
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {

@@ -1,8 +1,8 @@
 #include "imaging/phantom/phantom_name.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "core/number_from.h"
 #include "imaging/phantom/kinds.h"
 
 namespace tidemark::imaging {
@@ -21,11 +21,11 @@ Result<PhantomName> parse_phantom_name(std::string_view name) {
   }
   if (colon == std::string_view::npos) return parsed;
   const std::string_view noise = name.substr(colon + 1);
-  double& percent = parsed.options.noise_percent;
-  const auto [end, error] = std::from_chars(noise.data(), noise.data() + noise.size(), percent);
-  if (error != std::errc() || end != noise.data() + noise.size() || !(percent >= 0.0 && percent <= 100.0)) {
+  const auto percent = number_from<double>(noise);
+  if (!percent || *percent < 0.0 || *percent > 100.0) {
     return fail(ErrorKind::usage, "noise of '{}' %: a number from 0 to 100 is needed", noise);
   }
+  parsed.options.noise_percent = *percent;
   return parsed;
 }
 

@@ -1,4 +1,4 @@
-// A ball of voxels on a grid, row by row. Private to this folder.
+// A ball of voxels on a grid, row by row.
 #pragma once
 
 #include <algorithm>

@@ -30,42 +30,55 @@ struct BallSums {
   std::vector<std::int64_t> counts;
 };
 
+// Of the voxels of a row of the image up to one of them.
+struct SumSoFar {
+  double sum = 0.0;
+  std::int64_t count = 0;
+};
+
 // Adds a row of the ball for each voxel of the run that begins at `voxel`. `so_far` is room for the sums
 // along that row of the image.
 template <class Stored>
-void add_row(const TypedVolume<Stored>& image, const BallRow& row, Index3 voxel, std::vector<double>& so_far,
-             BallSums& balls) {
+void add_row(const TypedVolume<Stored>& image, const Region* covered, const BallRow& row, Index3 voxel,
+             std::vector<SumSoFar>& so_far, BallSums& balls) {
   const auto length = static_cast<std::int64_t>(balls.sums.size());
   const std::int64_t width = image.geometry.size.x;
   const Index3 first(std::max<std::int64_t>(voxel.x - row.half, 0), voxel.y + row.j, voxel.z + row.k);
   if (!image.geometry.contains(first)) return;
   const Stored* const values = image.stored.data() + image.geometry.offset(first);
-  so_far.assign(1, 0.0);
-  for (std::int64_t x = first.x; x < std::min(voxel.x + length + row.half, width); ++x)
-    so_far.push_back(so_far.back() + static_cast<double>(values[x - first.x]));
+  so_far.assign(1, {});
+  for (std::int64_t x = first.x; x < std::min(voxel.x + length + row.half, width); ++x) {
+    SumSoFar next = so_far.back();
+    if (covered == nullptr || covered->contains({x, first.y, first.z})) {
+      next.sum += static_cast<double>(values[x - first.x]);
+      ++next.count;
+    }
+    so_far.push_back(next);
+  }
   for (std::int64_t n = 0; n < length; ++n) {
     const std::int64_t from = std::max<std::int64_t>(voxel.x + n - row.half, 0) - first.x;
     const std::int64_t to = std::min(voxel.x + n + row.half + 1, width) - first.x;
-    balls.sums[static_cast<std::size_t>(n)] +=
-        so_far[static_cast<std::size_t>(to)] - so_far[static_cast<std::size_t>(from)];
-    balls.counts[static_cast<std::size_t>(n)] += to - from;
+    const SumSoFar& before = so_far[static_cast<std::size_t>(from)];
+    const SumSoFar& behind = so_far[static_cast<std::size_t>(to)];
+    balls.sums[static_cast<std::size_t>(n)] += behind.sum - before.sum;
+    balls.counts[static_cast<std::size_t>(n)] += behind.count - before.count;
   }
 }
 
 // Fails (ErrorKind::cancelled).
 template <class Stored>
-Result<double> highest_ball(const Region& region, const TypedVolume<Stored>& image,
+Result<double> highest_ball(const Region& region, const TypedVolume<Stored>& image, const Region* covered,
                             const Progress& progress) {
   constexpr double kBallMm3 = 1000.0;
   const Ball ball = ball_of(image.geometry, std::cbrt(3.0 * kBallMm3 / (4.0 * std::numbers::pi)));
   double highest = std::numeric_limits<double>::lowest();
   BallSums balls;
-  std::vector<double> so_far;
+  std::vector<SumSoFar> so_far;
   region.for_each_run([&](Index3 voxel, std::int64_t length) {
     if (progress.cancelled()) return;
     balls.sums.assign(static_cast<std::size_t>(length), 0.0);
     balls.counts.assign(static_cast<std::size_t>(length), 0);
-    for (const BallRow& row : ball.rows) add_row(image, row, voxel, so_far, balls);
+    for (const BallRow& row : ball.rows) add_row(image, covered, row, voxel, so_far, balls);
     for (std::size_t n = 0; n < balls.sums.size(); ++n) {
       const double mean =
           image.slope * balls.sums[n] / static_cast<double>(balls.counts[n]) + image.intercept;
@@ -78,7 +91,8 @@ Result<double> highest_ball(const Region& region, const TypedVolume<Stored>& ima
 
 }  // namespace
 
-Result<InsideValues> values_inside(const Region& region, const Volume& image, const Progress& progress) {
+Result<InsideValues> values_inside(const Region& region, const Volume& image, const Progress& progress,
+                                   const Region* covered) {
   return with_type(image, [&]<class Stored>(const TypedVolume<Stored>& typed) -> Result<InsideValues> {
     std::vector<Stored> values;
     region.for_each_run([&](Index3 voxel, std::int64_t length) {
@@ -105,7 +119,7 @@ Result<InsideValues> values_inside(const Region& region, const Volume& image, co
     }
     if (image.unit.starts_with("SUV")) {
       const double ml = count * image.geometry.voxel_volume_ml();
-      const auto peak = highest_ball(region, typed, progress);
+      const auto peak = highest_ball(region, typed, covered, progress);
       if (!peak) return pass_on(peak);
       inside.uptake = Uptake{*peak, inside.mean * ml};
     }

@@ -12,7 +12,7 @@ namespace tidemark::imaging {
 // Uptake of a tracer (PET in standardised uptake values).
 struct Uptake {
   // The highest mean of a ball of 1 ml around a voxel of the region (PERCIST 1.0). The ball may reach beyond
-  // the region, and ends at the image's border.
+  // the region, and ends where the image does.
   double peak = 0.0;
   double total_glycolysis = 0.0;  // mean times ml
 };
@@ -29,7 +29,9 @@ struct InsideValues {
   std::optional<Uptake> uptake;                           // where the image's unit is one of uptake
 };
 
-// The region lies in the image's grid, and is not empty. Fails (ErrorKind::cancelled).
-Result<InsideValues> values_inside(const Region& region, const Volume& image, const Progress& progress = {});
+// The region lies in the image's grid, and is not empty. Of an image that was resampled to the grid,
+// `covered` are the voxels that it has, with the region among them; null: all. Fails (ErrorKind::cancelled).
+Result<InsideValues> values_inside(const Region& region, const Volume& image, const Progress& progress = {},
+                                   const Region* covered = nullptr);
 
 }  // namespace tidemark::imaging

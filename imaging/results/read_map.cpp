@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "core/checked.h"
-#include "imaging/dicom/decimal.h"
 #include "imaging/guard/guarded.h"
 #include "imaging/results/dicom_object.h"
 #include "imaging/results/results.h"
@@ -16,16 +15,18 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kMostEmpty = 4;  // voxels a pixel that there is
 constexpr std::int64_t kSmall = std::int64_t{1} << 25;
 
-Result<Volume> empty_volume(const Geometry& grid, std::size_t frames, float value, const std::string& file) {
+Result<LoadedMap> empty_map(const Geometry& grid, std::size_t frames, const std::string& file) {
   const std::int64_t pixels = grid.size.x * grid.size.y * static_cast<std::int64_t>(frames);
   if (grid.voxel_count() > std::max(kMostEmpty * pixels, kSmall)) {
     return fail(ErrorKind::input, "{}: its {} frames leave most of {} slices empty", file, frames,
                 grid.size.z);
   }
-  Volume volume;
-  volume.geometry = grid;
-  volume.voxels = std::vector<float>(static_cast<std::size_t>(grid.voxel_count()), value);
-  return volume;
+  const auto count = static_cast<std::size_t>(grid.voxel_count());
+  LoadedMap map;
+  map.volume.geometry = grid;
+  map.volume.voxels = std::vector<float>(count);
+  map.covered = std::vector<bool>(count);
+  return map;
 }
 
 // Calls visit(voxel's offset, row, column) for each pixel of a frame; the grid holds them all.
@@ -43,24 +44,26 @@ Status visit_pixels(const SegmentFrame& frame, const Geometry& grid, const std::
   return {};
 }
 
-Result<Volume> read_fractions(const fs::path& file, float empty) {
+Result<LoadedMap> read_fractions(const fs::path& file) {
   SegmentationFile object(file);
   TIDEMARK_TRY(object.load());
   const auto grid = object.own_grid();
   if (!grid) return pass_on(grid);
   const auto& frames = object.frames().frames;
-  auto volume = empty_volume(*grid, frames.size(), empty, file.string());
-  if (!volume) return volume;
-  auto& values = std::get<std::vector<float>>(volume->voxels);
+  auto map = empty_map(*grid, frames.size(), file.string());
+  if (!map) return map;
+  map->frame_of_reference_uid = object.frame_of_reference_uid();
+  auto& values = std::get<std::vector<float>>(map->volume.voxels);
   for (std::size_t n = 0; n < frames.size(); ++n) {
     TIDEMARK_TRY(object.pixels().go_to(static_cast<std::int64_t>(n)));
     const auto take = [&](std::size_t offset, std::int64_t row, std::int64_t column) {
       const double part = object.pixels().value(row, column) / object.largest_value();
       values[offset] = std::max(values[offset], static_cast<float>(std::min(part, 1.0)));
+      map->covered[offset] = true;
     };
     TIDEMARK_TRY(visit_pixels(frames[n], *grid, file.string(), take));
   }
-  return volume;
+  return map;
 }
 
 // The stored pixels of a parametric map: one of these has them.
@@ -124,27 +127,27 @@ Result<ParametricMap> read_parametric_map(DcmDataset& dataset, const TransferSyn
   return ParametricMap{std::move(*described), *pixels};
 }
 
-Result<Volume> read_parameters(const fs::path& file, float empty) {
+Result<LoadedMap> read_parameters(const fs::path& file) {
   const std::string name = file.string();
   auto object = load_result(file);
   if (!object) return pass_on(object);
-  const auto map = read_parametric_map(object->dataset(), object->syntax(), name);
-  if (!map) return pass_on(map);
-  const DescribedFrames& described = map->described;
-  const StoredPixels& pixels = map->pixels;
+  const auto stored = read_parametric_map(object->dataset(), object->syntax(), name);
+  if (!stored) return pass_on(stored);
+  const DescribedFrames& described = stored->described;
+  const StoredPixels& pixels = stored->pixels;
   const auto grid = grid_of_frames(described.frames, described.between_mm, described.thickness_mm, name);
   if (!grid) return pass_on(grid);
-  auto volume = empty_volume(*grid, described.frames.size(), empty, name);
-  if (!volume) return volume;
-  auto& values = std::get<std::vector<float>>(volume->voxels);
-  std::vector<bool> covered(values.size());
+  auto map = empty_map(*grid, described.frames.size(), name);
+  if (!map) return map;
+  map->frame_of_reference_uid = element_text(object->dataset(), DCM_FrameOfReferenceUID);
+  auto& values = std::get<std::vector<float>>(map->volume.voxels);
   bool is_twice = false;
   std::size_t next = 0;
   for (std::size_t n = 0; n < described.frames.size(); ++n) {
     const FrameGroups& groups = described.groups[n];
     const auto take = [&](std::size_t offset, std::int64_t /*row*/, std::int64_t /*column*/) {
-      is_twice = is_twice || covered[offset];
-      covered[offset] = true;
+      is_twice = is_twice || map->covered[offset];
+      map->covered[offset] = true;
       values[offset] = static_cast<float>(groups.slope * pixels.at(next++) + groups.intercept);
     };
     TIDEMARK_TRY(visit_pixels(described.frames[n], *grid, name, take));
@@ -153,7 +156,7 @@ Result<Volume> read_parameters(const fs::path& file, float empty) {
     return fail(ErrorKind::input, "{}: several of its frames lie at one place: which is the map is not known",
                 name);
   }
-  return volume;
+  return map;
 }
 
 }  // namespace
@@ -163,10 +166,10 @@ bool holds_map(const fs::path& file) {
   return sop_class == UID_ParametricMapStorage || sop_class == UID_SegmentationStorage;
 }
 
-Result<Volume> read_map(const fs::path& file, float empty) {
-  return guarded(file, [&]() -> Result<Volume> {
-    if (sop_class_of(file) == UID_ParametricMapStorage) return read_parameters(file, empty);
-    return read_fractions(file, empty);
+Result<LoadedMap> read_map(const fs::path& file) {
+  return guarded(file, [&]() -> Result<LoadedMap> {
+    if (sop_class_of(file) == UID_ParametricMapStorage) return read_parameters(file);
+    return read_fractions(file);
   });
 }
 

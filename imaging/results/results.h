@@ -63,9 +63,14 @@ Result<Segments> read_result(const std::filesystem::path& file, const Geometry* 
 
 // The values of a parametric map (Parametric Map Storage, PS3.3 A.75: float, double or whole numbers, by its
 // real world value mapping), or of a segmentation as fractions from 0 to 1: at each voxel the largest of its
-// segments. Float, on the smallest grid that holds all frames; voxels that no frame covers have `empty`.
-// Fails (ErrorKind::input) when frames lie on no common grid, or several of a parametric map at one place.
-Result<Volume> read_map(const std::filesystem::path& file, float empty = 0.0F);
+// segments. Fails (ErrorKind::input) when frames lie on no common grid, or several of a parametric map at one
+// place.
+struct LoadedMap {
+  Volume volume;              // float, on the smallest grid that holds all frames
+  std::vector<bool> covered;  // whether a frame has the voxel; others are 0
+  std::string frame_of_reference_uid;
+};
+Result<LoadedMap> read_map(const std::filesystem::path& file);
 
 // A mask from any file that can be one, on that grid: a volume (every voxel that is not 0), a Segmentation or
 // a structure set (what is inside any of its segments). Without a grid: on its own, which a structure set has

@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/checked.h"
 #include "imaging/dicom/slice_places.h"
 
 namespace tidemark::imaging {

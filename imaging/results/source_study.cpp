@@ -13,7 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr DicomTag kPixelData{0x7fe0, 0x0010};
 constexpr double kSliceTolerance = 0.1;  // of the distance of slices: positions are rounded in files
 
 // The slice at whose place an image lies.

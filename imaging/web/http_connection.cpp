@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <system_error>
 
 #include "core/progress.h"
@@ -139,6 +141,14 @@ Result<std::string> secret_in(const std::filesystem::path& file) {
   return fail(ErrorKind::input, "{}: holds no password or token: one line is wanted", file.string());
 }
 
+// Who may have signed a server's certificate; empty: those that libcurl was built with. OpenSSL heeds the
+// variable by itself, libcurl does not.
+std::filesystem::path authorities(const WebServer& server) {
+  if (server.tls && !server.tls->ca.empty()) return server.tls->ca;
+  const char* chosen = std::getenv("SSL_CERT_FILE");
+  return chosen != nullptr ? chosen : "";
+}
+
 }  // namespace
 
 HttpConnection::HttpConnection(const WebServer& server, const std::stop_token& stop)
@@ -194,14 +204,14 @@ Status HttpConnection::authenticate() {
 void HttpConnection::encrypt() {
   CURL* handle = handle_.get();
   curl_easy_setopt(handle, CURLOPT_SSLVERSION, static_cast<long>(CURL_SSLVERSION_TLSv1_2));
+  if (const auto trusted = authorities(server_); !trusted.empty()) {
+    curl_easy_setopt(handle, CURLOPT_CAINFO, trusted.c_str());
+    curl_easy_setopt(handle, CURLOPT_CAPATH, nullptr);  // the system's authorities
+  }
   if (!server_.tls) return;
   const TlsFiles& tls = *server_.tls;
   curl_easy_setopt(handle, CURLOPT_SSL_VERIFYPEER, tls.verify ? 1L : 0L);
   curl_easy_setopt(handle, CURLOPT_SSL_VERIFYHOST, tls.verify ? 2L : 0L);
-  if (!tls.ca.empty()) {
-    curl_easy_setopt(handle, CURLOPT_CAINFO, tls.ca.c_str());
-    curl_easy_setopt(handle, CURLOPT_CAPATH, nullptr);  // the system's authorities
-  }
   if (tls.certificate.empty()) return;
   curl_easy_setopt(handle, CURLOPT_SSLCERT, tls.certificate.c_str());
   curl_easy_setopt(handle, CURLOPT_SSLKEY, tls.key.c_str());
@@ -271,8 +281,11 @@ std::string HttpConnection::reason(int code, const char* detail) const {
       return fmt::format("cannot be called: nothing came for {} s", server_.timeout_seconds);
     case CURLE_PEER_FAILED_VERIFICATION:
       return fmt::format("its certificate is not to be trusted: {}", clean_text(detail));
-    case CURLE_SSL_CACERT_BADFILE:
-      return fmt::format("{}: no certificate can be read from it", server_.tls->ca.string());
+    case CURLE_SSL_CACERT_BADFILE: {
+      const auto trusted = authorities(server_);
+      if (trusted.empty()) return "the system has no authorities (ca-certificates): name a file by tls.ca";
+      return fmt::format("{}: no certificate can be read from it", trusted.string());
+    }
     case CURLE_SSL_CERTPROBLEM:
       return clean_text(detail);
     case CURLE_SSL_CONNECT_ERROR:

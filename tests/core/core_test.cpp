@@ -23,6 +23,7 @@
 #include "core/file_lock.h"
 #include "core/geometry.h"
 #include "core/machine_memory.h"
+#include "core/number_from.h"
 #include "core/thread_pool.h"
 #include "core/volume.h"
 #include "tests/support/support.h"
@@ -93,6 +94,17 @@ class CoreTest : public QObject {
     QVERIFY(!checked_product(std::int64_t{1} << 40, std::int64_t{1} << 30));
     QVERIFY(!checked_product(16, -1));
     QCOMPARE(checked_product(std::numeric_limits<std::int64_t>::max(), 0).value(), std::int64_t{0});
+  }
+
+  void a_number_has_at_most_one_sign() {
+    QCOMPARE(number_from<double>("+0.5"), std::optional(0.5));
+    QCOMPARE(number_from<double>("-1e-3"), std::optional(-1e-3));
+    QCOMPARE(number_from<int>("+7"), std::optional(7));
+    for (const char* bad :
+         {"", "+", "-", "+-1", "-+1", "++1", "--1", " 1", "1 ", "1,5", "0x10", "nan", "inf"}) {
+      QVERIFY2(!number_from<double>(bad) && !number_from<int>(bad), bad);
+    }
+    QVERIFY(!number_from<int>("1.5") && !number_from<int>("3000000000") && !number_from<double>("1e999"));
   }
 
   void voxel_and_patient_coordinates_are_inverse() {

@@ -47,6 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
   if (const auto segments = imaging::read_result(file, &kVolume)) check(*segments);
   if (const auto segments = imaging::read_result(file, nullptr)) check(*segments);
   const auto map = imaging::read_map(file);
-  if (map && static_cast<std::int64_t>(map->values().size()) != map->geometry.voxel_count()) std::abort();
+  if (map && static_cast<std::int64_t>(map->volume.values().size()) != map->volume.geometry.voxel_count())
+    std::abort();
   return 0;
 }

@@ -1,9 +1,9 @@
 #include "imaging/guard/dicom/pixel_extent.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/checked.h"
+#include "core/number_from.h"
 
 namespace tidemark::imaging {
 namespace {
@@ -36,11 +36,7 @@ std::optional<std::int64_t> PixelExtent::number(const ElementHeader& header, Byt
       header.length <= ByteReader::kMost ? reader.at(header.value, header.length) : nullptr;
   if (bytes == nullptr) return std::nullopt;
   if (header.tag == kNumberOfFrames || header.is("IS") || header.is("DS")) {
-    const auto text = without_blanks({reinterpret_cast<const char*>(bytes), header.length});
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
+    return number_from<std::int64_t>(without_blanks({reinterpret_cast<const char*>(bytes), header.length}));
   }
   if (header.length == 2) return coding_.word(bytes);
   if (header.length == 4) return coding_.long_word(bytes);

@@ -14,8 +14,6 @@ namespace tidemark::imaging {
 
 class PixelExtent {
  public:
-  static constexpr DicomTag kPixelData{0x7fe0, 0x0010};
-
   explicit PixelExtent(const TransferSyntax& syntax);
 
   // To be called by the walk for every element of the dataset.

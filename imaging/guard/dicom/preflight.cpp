@@ -136,7 +136,7 @@ class Check {
         result_.series_uid = uid_of(header, reader);
       }
       extent.note(header, reader, fragments);
-      if (header.tag == PixelExtent::kPixelData && !result_.pixels) {
+      if (header.tag == kPixelData && !result_.pixels) {
         result_.pixels = header;
         if (fragments != nullptr) result_.fragments = *fragments;
       }
@@ -146,8 +146,7 @@ class Check {
     if (!walked) {
       conclude(Preflight::Verdict::damaged, walked.error());
     } else if (auto problem = extent.problem(bytes_.size()); !problem.empty()) {
-      conclude(Preflight::Verdict::bad_pixels,
-               {PixelExtent::kPixelData, extent.offset(), std::move(problem)});
+      conclude(Preflight::Verdict::bad_pixels, {kPixelData, extent.offset(), std::move(problem)});
     }
   }
 

@@ -8,7 +8,6 @@ namespace {
 constexpr DicomTag kItem{0xfffe, 0xe000};
 constexpr DicomTag kItemEnd{0xfffe, 0xe00d};
 constexpr DicomTag kSequenceEnd{0xfffe, 0xe0dd};
-constexpr DicomTag kPixelData{0x7fe0, 0x0010};
 constexpr DicomTag kSpecificCharacterSet{0x0008, 0x0005};
 
 // DCMTK's memory for an element with its node in a list, rounded up.

@@ -23,6 +23,7 @@ struct DicomTag {
   // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison for one
   auto operator<=>(const DicomTag&) const = default;
 };
+inline constexpr DicomTag kPixelData{0x7fe0, 0x0010};
 
 // The encoding of a dataset's elements.
 struct ElementCoding {

@@ -1,7 +1,6 @@
-// gzip and Base64 that come from a server: whole, cut, too long, and what is neither.
+// gzip that comes from a server: whole, cut, too long, and what is neither.
 #include "imaging/ai/packed_bytes.h"
 
-#include <QByteArray>
 #include <QTest>
 
 #include "tests/support/support.h"
@@ -51,19 +50,6 @@ class PackedBytesTest : public QObject {
       static_cast<void>(imaging::unpacked(damaged, 16));  // ends, whatever it says
     }
     QVERIFY(!imaging::unpacked("<html>", 16));
-  }
-
-  void base64_is_read_as_it_is_written() {
-    for (int size = 0; size < 70; ++size) {
-      QByteArray bytes;
-      for (int i = 0; i < size; ++i) bytes += static_cast<char>(i * 37 + size);
-      const auto back = imaging::from_base64(bytes.toBase64().toStdString());
-      QVERIFY(back.has_value());
-      QCOMPARE(QByteArray::fromStdString(*back), bytes);
-    }
-    for (const char* bad : {"A", "AB", "ABC", "AB!=", "A===", "AB=C", "ABCD\n", "====", "A\xc3\xa9=="}) {
-      QVERIFY2(!imaging::from_base64(bad), bad);
-    }
   }
 };
 

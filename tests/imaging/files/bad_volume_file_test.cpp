@@ -159,6 +159,8 @@ std::vector<BadFile> bad_text_header_files() {
          return file;
        }(),
        "endian: 'middle'"},
+      {"two signs", "v.nrrd", with_voxels(nrrd("encoding", "text"), "1 2 +-0 4 5 6 7 8"), "voxel 2"},
+      {"two signs in the header", "v.mha", meta("Offset", "0 +-1 0"), "Offset"},
       {"a number cut", "v.nrrd", with_voxels(nrrd("encoding", "text"), "1 2 0x 4 5 6 7 8"), "voxel 2"},
       {"NDims in words", "v.mha", meta("NDims", "three"), "NDims"},
       {"negative size", "v.mha", meta("DimSize", "2 -2 2"), "DimSize"},

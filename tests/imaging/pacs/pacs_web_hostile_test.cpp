@@ -1,6 +1,7 @@
 // Web servers that misbehave: slow, endless, elsewhere, compressed, wrong. One clear line each, and nothing
 // is left.
 #include <QElapsedTimer>
+#include <QScopeGuard>
 #include <QTest>
 #include <QtEndian>
 #include <thread>
@@ -80,6 +81,21 @@ class PacsWebHostileTest : public QObject {
     server.timeout_seconds = 10;
     const auto echoed = imaging::pacs_echo(server);
     QVERIFY2(message(echoed).contains("its host is not known"), qPrintable(message(echoed)));
+  }
+
+  void without_authorities_the_file_is_named() {
+    const ScriptedPeer peer([](PeerEnd& end) { end.say_nothing(); });
+    const auto back = qScopeGuard([] { qunsetenv("SSL_CERT_FILE"); });
+    qputenv("SSL_CERT_FILE", "/nowhere/authorities.crt");
+    imaging::PacsServer server = peer.web_server();
+    server.web->url.insert(4, "s");
+    for (const std::optional<imaging::TlsFiles>& tls :
+         {std::optional<imaging::TlsFiles>(), std::optional(imaging::TlsFiles())}) {
+      server.tls = tls;
+      const auto echoed = imaging::pacs_echo(server);
+      QVERIFY2(message(echoed).contains("/nowhere/authorities.crt: no certificate can be read from it"),
+               qPrintable(message(echoed)));
+    }
   }
 
   void who_misbehaves_when_asked_is_told_off_data() {

@@ -1,5 +1,6 @@
 // DICOMweb with a real archive: sent, asked for, found and fetched, with passwords and certificates.
 #include <QFile>
+#include <QScopeGuard>
 #include <QTest>
 #include <algorithm>
 
@@ -202,6 +203,14 @@ class PacsWebTest : public QObject {
     server.tls->ca = folder / "none.pem";
     QVERIFY2(said(imaging::pacs_echo(server)).contains("none.pem"),
              qPrintable(said(imaging::pacs_echo(server))));
+    // The system's authorities are those that this variable names, as for DICOM's own protocol.
+    server = good;
+    server.tls.reset();
+    const auto back = qScopeGuard([] { qunsetenv("SSL_CERT_FILE"); });
+    qputenv("SSL_CERT_FILE", authority.authority().c_str());
+    QCOMPARE(said(imaging::pacs_echo(server)), QString("it answers"));
+    qputenv("SSL_CERT_FILE", stranger.authority().c_str());
+    QCOMPARE(said(imaging::pacs_echo(good)), QString("it answers"));
     server = good;
     server.web->secret = folder / "none.txt";
     QVERIFY2(said(imaging::pacs_echo(server)).contains("none.txt"),

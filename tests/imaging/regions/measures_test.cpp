@@ -266,6 +266,21 @@ class MeasuresTest : public QObject {
     QVERIFY(!imaging::values_inside(region, image)->uptake.has_value());
   }
 
+  void the_peak_ends_where_the_image_does() {
+    const Geometry grid = grid_of({20, 15, 10}, {4.0, 4.0, 3.0}, kOrigin);
+    const Region covered = whole({Index3(0), Index3(12, 15, 10)});
+    Volume image;
+    image.geometry = grid;
+    image.unit = "SUVbw g/ml";
+    std::vector<float> values;
+    for (std::int64_t i = 0; i < grid.voxel_count(); ++i)
+      values.push_back(covered.contains(grid.voxel_at(i)) ? 1.5F : 0.0F);
+    image.voxels = std::move(values);
+    const Region region = whole({Index3(11, 5, 4), Index3(12, 8, 6)});
+    QVERIFY(imaging::values_inside(region, image)->uptake->peak < 1.4);
+    QCOMPARE(imaging::values_inside(region, image, {}, &covered)->uptake->peak, 1.5);
+  }
+
   void the_search_for_the_peak_can_be_stopped() {
     Volume image;
     image.geometry = grid_of({20, 15, 10}, {4.0, 4.0, 3.0}, kOrigin);

@@ -117,7 +117,7 @@ class ReadMapTest : public QObject {
     QVERIFY(imaging::holds_map(folder / "seg.dcm"));
     const auto read = imaging::read_map(folder / "seg.dcm");
     QCOMPARE(test::failure(read), QString());
-    verify_values(*read, grid, 1.0, 0.0, 0.5 / 200.0 + 1e-6);
+    verify_values(read->volume, grid, 1.0, 0.0, 0.5 / 200.0 + 1e-6);
   }
 
   void compressed_fractions_are_read() {
@@ -126,7 +126,7 @@ class ReadMapTest : public QObject {
     write_fractions(folder / "seg.dcm", grid_, 255, EXS_RLELossless);
     const auto read = imaging::read_map(folder / "seg.dcm");
     QCOMPARE(test::failure(read), QString());
-    verify_values(*read, grid_, 1.0, 0.0, 0.5 / 255.0 + 1e-6);
+    verify_values(read->volume, grid_, 1.0, 0.0, 0.5 / 255.0 + 1e-6);
   }
 
   void of_several_segments_the_largest_counts() {
@@ -136,9 +136,39 @@ class ReadMapTest : public QObject {
     const auto read = imaging::read_map(folder / "seg.dcm");
     QCOMPARE(test::failure(read), QString());
     const Mask mask = imaging::union_of(segments);
-    QVERIFY(same_grid(read->geometry, mask.geometry, 1e-4));
+    QVERIFY(same_grid(read->volume.geometry, mask.geometry, 1e-4));
     for (std::size_t n = 0; n < mask.voxels.size(); ++n)
-      QCOMPARE(read->value(static_cast<std::int64_t>(n)), mask.voxels[n] == 0 ? 0.0F : 1.0F);
+      QCOMPARE(read->volume.value(static_cast<std::int64_t>(n)), mask.voxels[n] == 0 ? 0.0F : 1.0F);
+  }
+
+  void what_no_frame_covers_is_told_with_the_frame_of_reference_data() {
+    QTest::addColumn<bool>("is_parametric");
+    QTest::newRow("segmentation") << false;
+    QTest::newRow("parametric map") << true;
+  }
+  void what_no_frame_covers_is_told_with_the_frame_of_reference() {
+    QFETCH(bool, is_parametric);
+    const test::TemporaryFolder folder;
+    const auto file = folder / "map.dcm";
+    imaging::Segment segment = filled_segment(grid_);
+    segment.slices.erase(1);
+    QCOMPARE(test::failure(imaging::write_segmentation({grid_, {segment}, {}}, {}, file)), QString());
+    test::set_text(file, 0x0020, 0x0052, "1.2.3");
+    const auto frames = static_cast<std::size_t>(grid_.size.z - 1);
+    if (is_parametric) {
+      test::make_parametric_map(
+          file, std::vector<std::int16_t>(frames * static_cast<std::size_t>(grid_.size.x * grid_.size.y), 3),
+          0.25, 0.0);
+    }
+    const auto read = imaging::read_map(file);
+    QCOMPARE(test::failure(read), QString());
+    QCOMPARE(read->frame_of_reference_uid, std::string("1.2.3"));
+    QVERIFY(same_grid(read->volume.geometry, grid_, 1e-4));
+    for (std::int64_t n = 0; n < grid_.voxel_count(); ++n) {
+      const bool covered = grid_.voxel_at(n).z != 1;
+      QCOMPARE(read->covered[static_cast<std::size_t>(n)], covered);
+      QCOMPARE(read->volume.value(n), covered ? (is_parametric ? 0.75F : 1.0F) : 0.0F);
+    }
   }
 
   void parametric_maps_are_read_data() {
@@ -154,7 +184,7 @@ class ReadMapTest : public QObject {
     QVERIFY(imaging::holds_map(folder / "map.dcm"));
     const auto read = imaging::read_map(folder / "map.dcm");
     QCOMPARE(test::failure(read), QString());
-    verify_values(*read, grid_, 2.0, -1.0, 1e-6);
+    verify_values(read->volume, grid_, 2.0, -1.0, 1e-6);
   }
 
   void images_hold_no_map() {

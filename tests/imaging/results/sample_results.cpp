@@ -147,6 +147,28 @@ void renumber_segments(const std::filesystem::path& file, const std::vector<std:
   });
 }
 
+void make_parametric_map(const std::filesystem::path& file, const std::vector<std::int16_t>& stored,
+                         double slope, double intercept) {
+  edit(file, [&](DcmDataset& dataset) {
+    dataset.putAndInsertString(DCM_SOPClassUID, UID_ParametricMapStorage);
+    dataset.putAndInsertString(DCM_Modality, "MR");
+    for (const DcmTagKey& key : {DCM_SegmentSequence, DCM_SegmentationType, DCM_PixelData})
+      dataset.findAndDeleteElement(key);
+    DcmItem* shared = nullptr;
+    DcmItem* mapping = nullptr;
+    QVERIFY(dataset.findOrCreateSequenceItem(DCM_SharedFunctionalGroupsSequence, shared, 0).good());
+    QVERIFY(shared->findOrCreateSequenceItem(DCM_RealWorldValueMappingSequence, mapping, 0).good());
+    mapping->putAndInsertFloat64(DCM_RealWorldValueSlope, slope);
+    mapping->putAndInsertFloat64(DCM_RealWorldValueIntercept, intercept);
+    dataset.putAndInsertUint16(DCM_BitsAllocated, 16);
+    dataset.putAndInsertUint16(DCM_PixelRepresentation, 1);
+    std::vector<Uint16> words;
+    for (const std::int16_t word : stored) words.push_back(static_cast<Uint16>(word));
+    const auto count = static_cast<unsigned long>(words.size());
+    QVERIFY(dataset.putAndInsertUint16Array(DcmTag(DCM_PixelData, EVR_OW), words.data(), count).good());
+  });
+}
+
 imaging::Segment ball_segment(const Geometry& geometry, double radius_mm, double hollow_mm) {
   const glm::dvec3 centre = geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1)));
   const glm::dvec3 h = geometry.spacing_mm;

@@ -39,6 +39,11 @@ imaging::Segments speckled_segments(const Geometry& geometry);
 void write_speckled_segmentation(const std::filesystem::path& file, const Geometry& geometry,
                                  imaging::SourceFiles source = {});
 
+// Makes a written segmentation a parametric map: its frames hold these words, signed, in their order. Fails
+// the test that runs where it cannot be.
+void make_parametric_map(const std::filesystem::path& file, const std::vector<std::int16_t>& stored,
+                         double slope, double intercept);
+
 // Fails the test that runs where voxels, colours or meanings differ.
 void verify_same(const imaging::Segments& read, const imaging::Segments& written);
 
