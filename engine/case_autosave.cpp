@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "document/recovery_folder.h"
 #include "engine/background_job.h"
@@ -67,7 +68,8 @@ CaseAutosave::~CaseAutosave() {
 }
 
 CaseAutosave::Copied CaseAutosave::present() const {
-  return {proxy_.state().edits, proxy_.state().step, proxy_.attachments()};
+  const CaseState& state = proxy_.state();
+  return {state.edits, state.step, state.steered, state.parameters, state.drive, proxy_.attachments()};
 }
 
 void CaseAutosave::follow() {
@@ -86,7 +88,7 @@ void CaseAutosave::save_soon() {
 }
 
 void CaseAutosave::save_now() {
-  if (!proxy_.state().modified || writing_ || failed_ || keeps_) return;
+  if (!proxy_.state().modified || writing_ || keeps_) return;
   Copied now = present();
   if (!soon_ && now == last_) return;
   writing_ = true;
@@ -108,14 +110,15 @@ void CaseAutosave::save_now() {
     self->writing_ = false;
     self->last_.step = -1;
   };
-  proxy_.take_snapshot(view_state_(), write, gave_up);
+  proxy_.take_snapshot(view_state_(), write, gave_up, CaseProxy::OpenChange::goes_on);
 }
 
 void CaseAutosave::copied(const Status& status) {
   writing_ = false;
+  const bool fails_again = std::exchange(fails_, !status.has_value());
   if (status) return emit saved();
-  failed_ = true;
-  emit failed(message_text(status.error()));
+  last_.step = -1;
+  if (!fails_again) emit failed(message_text(status.error()));
 }
 
 std::filesystem::path recovery_folder() {

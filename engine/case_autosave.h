@@ -17,8 +17,8 @@ namespace tidemark::engine {
 
 class BackgroundJob;
 
-// Written every kInterval or kEdits edits, away from the user interface. A program that dies leaves the last
-// copy behind, for find_recoverable().
+// Written every kInterval or kEdits edits, away from the user interface. An open change goes on. A program
+// that dies leaves the last copy behind, for find_recoverable().
 class CaseAutosave : public QObject {
   Q_OBJECT
  public:
@@ -39,7 +39,7 @@ class CaseAutosave : public QObject {
 
  signals:
   void saved();
-  void failed(const QString& message);  // once: where one copy cannot be written, others cannot either
+  void failed(const QString& message);  // of copies that fail one after the other, the first
 
  private:
   struct Copies;
@@ -47,6 +47,10 @@ class CaseAutosave : public QObject {
   struct Copied {
     std::uint64_t edits = 0;
     std::int64_t step = -1;  // there is no copy yet
+    // An open change goes on without another edit.
+    std::uint64_t steered = 0;
+    solver::Parameters parameters = {};
+    document::Drive drive = {};
     Attachments attachments;
 
     bool operator==(const Copied&) const = default;
@@ -65,7 +69,7 @@ class CaseAutosave : public QObject {
   bool soon_ = false;
   bool writing_ = false;
   bool was_modified_ = false;
-  bool failed_ = false;
+  bool fails_ = false;  // the last copy could not be written
   bool keeps_ = false;  // the copy, as the case cannot go on
 };
 

@@ -44,6 +44,7 @@ ExplainedPlace explained(const solver::StepInputs& inputs, glm::dvec3 voxel) {
 
 std::optional<solver::StepInputs> step_inputs(const CaseState& state) {
   if (!state.begun || !state.phi || !state.source || state.time_step <= 0.0) return std::nullopt;
+  if (state.lacks_speed) return std::nullopt;
   if (state.phi->geometry.size != state.source->geometry.size) return std::nullopt;
   return solver::StepInputs{state.phi,         state.source,    state.parameters,  state.speed,
                             state.constraints, state.time_step, state.moving_pages};
@@ -104,6 +105,7 @@ void CaseBalance::follow() {
   if (!chosen_) return;
   const auto inputs = step_inputs(proxy_.state());
   if (!inputs) {
+    question_.forget();
     if (std::exchange(shown_, std::nullopt)) emit changed();
     return;
   }
@@ -135,6 +137,10 @@ void CaseBalance::go_to(glm::dvec3 place_mm) {
 }
 
 void CaseBalance::take() {
+  if (!question_.answer()) {
+    shown_.reset();
+    return emit changed();
+  }
   const auto& [question, place] = *question_.answer();
   if (!chosen_ || question.number != chosen_->number) return;
   shown_ = place;

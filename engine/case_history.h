@@ -15,12 +15,16 @@ namespace tidemark::engine {
 struct StateFigures {
   double volume_ml = 0.0;
   QImage picture;  // see picture_of_state(); null where nothing is inside
+
+  bool operator==(const StateFigures&) const = default;
 };
 
 // A state as lists show it. Figures come later, when the case rests.
 struct HistoryRow {
   document::HistoryState state;
   std::optional<StateFigures> figures;
+
+  bool operator==(const HistoryRow&) const = default;
 };
 using HistoryRows = std::vector<HistoryRow>;
 // Null: there is none.

@@ -8,6 +8,7 @@
 
 #include "document/case.h"
 #include "engine/engine.h"
+#include "engine/surface_maps.h"
 #include "engine/view_slot.h"
 #include "renderer/renderer.h"
 
@@ -42,11 +43,13 @@ class CasePainter {
   // What speed maps show; null: the tent.
   void set_speed(std::shared_ptr<const solver::SpeedFunction> speed) { speed_ = std::move(speed); }
 
-  // One of surface_maps.h, shown in place of how far the surface has moved; null: that is not wanted.
-  void set_distances(std::shared_ptr<const solver::SpeedFunction> distances) {
+  // Shown in place of how far the surface has moved; null, of none: that is not wanted.
+  void set_surface_map(SurfaceMap which, std::shared_ptr<const solver::SpeedFunction> distances) {
+    surface_map_ = which;
     distances_ = std::move(distances);
     look_changed();
   }
+  [[nodiscard]] SurfaceMap surface_map() const { return surface_map_; }
 
   [[nodiscard]] bool out_of_date(ViewSlot& slot) const;
   // Draws the next picture of a view and announces it. Returns whether a better one can follow. Fails
@@ -108,7 +111,8 @@ class CasePainter {
   Canvas shown_;   // the volume as it was loaded
   Canvas solved_;  // the level set's source, where that is another one
   std::shared_ptr<const solver::SpeedFunction> speed_;
-  std::shared_ptr<const solver::SpeedFunction> distances_;
+  SurfaceMap surface_map_ = SurfaceMap::none;
+  std::shared_ptr<const solver::SpeedFunction> distances_;  // the map
   std::shared_ptr<const solver::Field> phi_;
   std::int64_t phi_revision_ = 0;
   std::uint64_t look_revision_ = 1;

@@ -63,7 +63,7 @@ std::optional<glm::dvec3> CasePasses::place() {
 std::optional<CasePasses::Question> CasePasses::question() {
   const CaseState& state = proxy_.state();
   const auto found = place();
-  if (!found || state.speed_waits) return std::nullopt;
+  if (!found || state.speed_waits || state.lacks_speed) return std::nullopt;
   const Index3 size = proxy_.volume().geometry.size;
   const Index3 voxel(glm::clamp(glm::round(*found), glm::dvec3(0.0), glm::dvec3(size - Index3(1))));
   const PageLayout layout(size, state.memory.page_shape);
@@ -93,7 +93,8 @@ void CasePasses::take(const Result<RecordedStep>& answer) {
   waits_ = false;
   if (!asked_) return look();  // it was forgotten meanwhile
   recorded_ = answer ? std::make_shared<const RecordedStep>(*answer) : nullptr;
-  problem_ = answer ? std::string() : answer.error().message;
+  const bool has_reason = !answer && answer.error().kind != ErrorKind::cancelled;
+  problem_ = has_reason ? answer.error().message : std::string();
   emit changed();
   look();
 }

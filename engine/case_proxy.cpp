@@ -65,14 +65,16 @@ CaseProxy::CaseProxy(Engine& engine, std::shared_ptr<const LoadedStudy> study, s
   connect(&display_, &Display::changed, this, &CaseProxy::use_images_of_display);
   connect(&display_, &Display::changed, this, &CaseProxy::show_distances);
   connect(&display_, &Display::changed, this, &CaseProxy::follow_modified);
-  const auto show = [this](const WantedMap::Map& map) {
-    post([map](CaseRunner& runner, const Progress&) {
-      runner.painter().set_distances(map);
-      return Status();
-    });
+  const auto show = [this](SurfaceMap which) {
+    return [this, which](const WantedMap::Map& map) {
+      post([which, map](CaseRunner& runner, const Progress&) {
+        runner.painter().set_surface_map(map ? which : SurfaceMap::none, map);
+        return Status();
+      });
+    };
   };
-  truth_error_ = std::make_unique<WantedMap>(show);
-  spread_ = std::make_unique<WantedMap>(show);
+  truth_error_ = std::make_unique<WantedMap>(show(SurfaceMap::truth_error));
+  spread_ = std::make_unique<WantedMap>(show(SurfaceMap::spread));
   use_truth();
 }
 
@@ -105,6 +107,11 @@ void CaseProxy::compare_with(std::shared_ptr<const Mask> truth) {
 
 void CaseProxy::use_truth() {
   truth_error_->set_make(truth_ ? [truth = truth_] { return truth_error_map(*truth); } : WantedMap::Make());
+}
+
+SurfaceMap CaseProxy::wanted_surface_map() const {
+  if (display_.spread()) return SurfaceMap::spread;
+  return truth_ && display_.settings().truth_error ? SurfaceMap::truth_error : SurfaceMap::none;
 }
 
 // One of them at a time. What is shown no more goes before the other one comes.
@@ -160,13 +167,17 @@ Attachments CaseProxy::attachments_of(const DisplaySettings& settings) const {
 }
 
 // An image is read again, so that another one may be the same; an accepted registration moves it.
-bool CaseProxy::modified() const {
+bool CaseProxy::has_saved_attachments() const {
   const auto is_same = [](const auto& a, const auto& b) {
     return a->name == b->name && a->checksum == b->checksum && a->to_case == b->to_case;
   };
   const Attachments now = attachments();
-  return case_modified_ || now.truth != saved_.truth || now.measurements != saved_.measurements ||
-         !std::ranges::is_permutation(now.images, saved_.images, is_same);
+  return now.truth == saved_.truth && now.measurements == saved_.measurements &&
+         std::ranges::is_permutation(now.images, saved_.images, is_same);
+}
+
+bool CaseProxy::modified() const {
+  return case_modified_ || !has_saved_attachments();
 }
 
 void CaseProxy::follow_modified() {
@@ -190,10 +201,13 @@ void CaseProxy::set_playing(bool playing) {
 
 void CaseProxy::play_for(std::int64_t steps, bool until_rest, std::function<void(bool reached)> ended) {
   leave_lock_step();
-  post([steps, until_rest, ended = std::move(ended)](CaseRunner& runner, const Progress&) -> Status {
-    runner.play({steps, until_rest, ended});
-    return {};
-  });
+  const auto unplayed = std::make_shared<LastCall>(weak_receiver_, [ended] { ended(false); });
+  post(
+      [steps, until_rest, ended = std::move(ended), unplayed](CaseRunner& runner, const Progress&) -> Status {
+        unplayed->forget();
+        runner.play({steps, until_rest, ended});
+        return {};
+      });
 }
 
 void CaseProxy::measure(std::function<void()> answer) {
@@ -398,8 +412,9 @@ void CaseProxy::pick(const renderer::VolumeView& view, renderer::PictureSize siz
 }
 
 void CaseProxy::record_step(std::int64_t page, std::function<void(const Result<RecordedStep>&)> answer) {
-  post([page, answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner& runner,
-                                                                          const Progress&) -> Status {
+  const auto unanswered = std::make_shared<LastCall>(weak_receiver_, [answer] { answer(cancelled_error()); });
+  post([page, answer = std::move(answer), unanswered, weak_receiver = weak_receiver_](
+           CaseRunner& runner, const Progress&) -> Status {
     document::LevelSet& level_set = runner.document().level_set();
     auto recorded = without_exceptions([&]() -> Result<RecordedStep> {
       auto record = level_set.executor().record_step(page);
@@ -407,21 +422,24 @@ void CaseProxy::record_step(std::int64_t page, std::function<void(const Result<R
       return RecordedStep{std::move(*record), level_set.step()};
     });
     weak_receiver->send([answer, recorded = std::move(recorded)] { answer(recorded); });
+    unanswered->forget();
     return {};
   });
 }
 
 void CaseProxy::take_snapshot(std::string view_state,
                               std::function<void(std::shared_ptr<const Snapshot>)> answer,
-                              std::function<void()> gave_up) {
+                              std::function<void()> gave_up, OpenChange open) {
   using Taken = Result<std::shared_ptr<const Snapshot>>;
-  post([view_state = std::move(view_state), attachments = attachments(), answer = std::move(answer),
+  post([view_state = std::move(view_state), attachments = attachments(), open, answer = std::move(answer),
         unanswered = std::make_shared<LastCall>(askers_, std::move(gave_up)),
         askers = askers_](CaseRunner& runner, const Progress&) -> Status {
     const Taken taken = without_exceptions([&]() -> Taken {
       document::Case& document = runner.document();
       document.view_state = view_state;
-      TIDEMARK_TRY(document.history().close());
+      if (open == OpenChange::ends) {
+        TIDEMARK_TRY(document.history().close());
+      }
       auto contents = document::snapshot_of(document);
       if (!contents) return pass_on(contents);
       contents->images = attachments.images;
@@ -438,17 +456,23 @@ void CaseProxy::take_snapshot(std::string view_state,
 
 void CaseProxy::mark_saved(const Snapshot& snapshot) {
   saved_ = snapshot.attachments;
-  post([position = snapshot.position](CaseRunner& runner, const Progress&) -> Status {
+  mark_surface_saved(snapshot.position);
+}
+
+void CaseProxy::mark_surface_saved(std::uint64_t position) {
+  post([position](CaseRunner& runner, const Progress&) -> Status {
     runner.mark_saved(position);
     return {};
   });
 }
 
 void CaseProxy::prepare_sweep(std::function<void(const Result<document::SweepStart>&)> answer) {
-  post([answer = std::move(answer), weak_receiver = weak_receiver_](CaseRunner& runner,
-                                                                    const Progress&) -> Status {
+  const auto unanswered = std::make_shared<LastCall>(weak_receiver_, [answer] { answer(cancelled_error()); });
+  post([answer = std::move(answer), unanswered, weak_receiver = weak_receiver_](CaseRunner& runner,
+                                                                                const Progress&) -> Status {
     auto start = without_exceptions([&] { return runner.document().level_set().sweep_start(); });
     weak_receiver->send([answer, start = std::move(start)] { answer(start); });
+    unanswered->forget();
     return {};
   });
 }

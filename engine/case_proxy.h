@@ -86,6 +86,8 @@ class CaseProxy : public QObject {
   void compare_with(std::shared_ptr<const Mask> truth);
   [[nodiscard]] bool has_another_truth() const { return truth_ != study_->truth; }
   void compare_as_the_study() { compare_with(study_->truth); }
+  // That the display asks for. Making it takes a while: CaseState has the one that is shown.
+  [[nodiscard]] SurfaceMap wanted_surface_map() const;
   [[nodiscard]] Display& display() { return display_; }
   [[nodiscard]] Engine& engine() { return engine_; }
   // Why the surface moves or rests at a place that the user has chosen.
@@ -102,8 +104,8 @@ class CaseProxy : public QObject {
   void pause();
   void toggle_play() { state_.playing ? pause() : play(); }
   // Plays for so many steps, alone, or until the surface rests where that comes before and is asked for. No
-  // leak ends it. `ended` is called when state() is that after it, with whether it came to its end; never
-  // when the case is closed before.
+  // leak ends it. `ended` is called when state() is that after it, with whether it came to its end, and where
+  // it cannot begin; never when the case is closed before.
   void play_for(std::int64_t steps, bool until_rest, std::function<void(bool reached)> ended);
   // `answer` is called when the figures in state() are those of the present surface.
   void measure(std::function<void()> answer);
@@ -144,7 +146,8 @@ class CaseProxy : public QObject {
   void take_stroke(const DriveChange& change, const std::vector<std::int64_t>& voxels, std::int64_t steps);
   void begin(const document::Start& start);
   void paint(const solver::Sphere& sphere, solver::Brush brush, std::uint64_t gesture);
-  // The level set's source (0: the volume itself). It is smoothed in the background; undo() gives that up.
+  // The level set's source (0: the volume itself). It is smoothed in the background; undo() gives that up
+  // where nothing was done since.
   void smooth_source(double sigma_mm);
   void change_executor(solver::ExecutorKind kind);
   void undo();
@@ -189,26 +192,33 @@ class CaseProxy : public QObject {
             std::shared_ptr<const document::Labels> labels, glm::dvec2 pixel,
             std::function<void(std::optional<renderer::Hit>)> answer);
 
-  // The next step of a virtual page; the answer comes as pick()'s does. Nothing is changed by it.
+  // The next step of a virtual page; the answer comes as pick()'s does. Nothing is changed by it. Fails
+  // (ErrorKind::cancelled) where the case could not be asked: it has said why.
   void record_step(std::int64_t page, std::function<void(const Result<RecordedStep>&)> answer);
 
   // The case as it is now, with the images of the display, for writing on another thread; the answer comes as
-  // pick()'s does. An open change ends as an entry of the history.
+  // pick()'s does.
   struct Snapshot {
     document::SessionContents contents;
     Attachments attachments;
     std::uint64_t position = 0;  // for mark_saved()
   };
+  // An open change ends as an entry of the history. While it goes on, a snapshot has no history.
+  enum class OpenChange { ends, goes_on };
   // On a failure failed() says why, and `gave_up` is called instead of the answer.
   void take_snapshot(std::string view_state, std::function<void(std::shared_ptr<const Snapshot>)> answer,
-                     std::function<void()> gave_up = {});
+                     std::function<void()> gave_up = {}, OpenChange open = OpenChange::ends);
   // A session file holds the snapshot of that position.
   void mark_saved(const Snapshot& snapshot);
+  // Another file holds the surface of that position, and nothing that lies beside the history.
+  void mark_surface_saved(std::uint64_t position);
+  // Whether images, the truth and measurements are those of the session file.
+  [[nodiscard]] bool has_saved_attachments() const;
   [[nodiscard]] Attachments attachments() const;
   // It holds what the display gets next.
   void set_saved(const DisplaySettings& settings) { saved_ = attachments_of(settings); }
 
-  // For runs of a sweep from the case's start; the answer comes as pick()'s does.
+  // For runs of a sweep from the case's start; the answer comes, and fails, as that of record_step() does.
   void prepare_sweep(std::function<void(const Result<document::SweepStart>&)> answer);
   // The case becomes that run, computed again by its own executor.
   void take_run(std::shared_ptr<const document::SweepStart> start, const document::SweepRun& run);

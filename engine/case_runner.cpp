@@ -232,14 +232,20 @@ Status CaseRunner::follow_surface() {
 }
 
 Status CaseRunner::smooth_source(double sigma_mm) {
+  TIDEMARK_TRY(case_->history().close());
   case_speed_.smooth(sigma_mm);
+  smoothing_position_ = case_->history().position();
   return {};
 }
 
-// What is still on its way was done last.
+// Whether nothing was done since.
+bool CaseRunner::smoothing_is_last() const {
+  return case_speed_.smoothing() && case_->history().position() == smoothing_position_;
+}
+
 Status CaseRunner::undo() {
   set_playing(false);
-  if (case_speed_.smoothing()) {
+  if (smoothing_is_last()) {
     case_speed_.give_up_smoothing();
     return {};
   }
@@ -377,6 +383,7 @@ void CaseRunner::publish() {
   state.drive = level_set.drive();
   state.speed = shown_speed_.function();
   state.speed_waits = case_speed_.waits();
+  state.lacks_speed = level_set.lacks_speed();
   state.constraints = level_set.executor().constraints();
   state.smoothing = case_speed_.smoothing();
   state.source = level_set.source();
@@ -388,7 +395,7 @@ void CaseRunner::publish() {
   state.label_voxels = label_voxels();
   if (case_->history().position() == acceptance_position_) state.acceptance = acceptance_;
   if (const auto change = case_->history().undo_description()) state.undo_text = change_text(*change);
-  if (case_speed_.smoothing()) state.undo_text = change_text({document::ChangeKind::source, 0, {}});
+  if (smoothing_is_last()) state.undo_text = change_text({document::ChangeKind::source, 0, {}});
   if (const auto change = case_->history().redo_description()) state.redo_text = change_text(*change);
   state.history = history_.rows(*case_);
   state.history_state = case_->history().last_state();
@@ -399,6 +406,7 @@ void CaseRunner::publish() {
   state.commands = carried_out_;
   state.start_text = start_text(recipe.start);
   state.limit = recipe.start.limit();
+  state.surface_map = painter_.surface_map();
   meter_.follow_labels(*case_);
   meter_.report(state);
   post_.send(std::move(state));

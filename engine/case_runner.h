@@ -126,6 +126,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status measure(bool thoroughly);
   Status add_missed(const std::vector<std::int64_t>& inside, std::uint64_t gesture);
   void follow_drive();
+  [[nodiscard]] bool smoothing_is_last() const;
   void take_speed(const SpeedOrigin& origin, const SpeedMaker::Made& made);
   [[nodiscard]] SpeedMaker::Report report() const;  // of long work, to the proxy
   Status follow_surface();
@@ -172,6 +173,7 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   std::uint64_t label_revision_ = 0;
   std::optional<document::Acceptance> acceptance_;
   std::uint64_t acceptance_position_ = 0;  // in the history, right after it
+  std::uint64_t smoothing_position_ = 0;   // in the history, when the smoothing on its way was asked for
 
   StatePost post_;
 };

@@ -38,7 +38,11 @@ void CaseRunner::play_alone(bool playing) {
 }
 
 Status CaseRunner::step(std::int64_t steps, const Progress& progress) {
-  if (!case_->level_set().begun() || holds_steps()) return {};
+  if (!case_->level_set().begun()) return {};
+  if (holds_steps()) {
+    case_speed_.try_again();  // what cannot be had says so once more
+    return {};
+  }
   if (const auto group = group_.lock()) return group->step(steps, progress);
   // Steps by hand are one entry while nothing else is done.
   if (playing_ || !case_->level_set().in_run()) play_alone(false);

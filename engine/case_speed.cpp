@@ -28,11 +28,11 @@ void CaseSpeed::follow(const document::Case& document, const SpeedMaker::Report&
     if (is_tent) made_ = {};
     return;
   }
-  if (wish_ == wanted) return;
-  wish_ = wanted;
-  waits_ = true;
+  if (wish_ == wanted && (waits_ || level_set.parameters().data_form == refused_form_)) return;
   maker_.make(wanted, smoothing_ ? nullptr : level_set.source(), report,
               [deliver, wanted](SpeedMaker::Made made) { deliver(wanted, std::move(made)); });
+  wish_ = wanted;
+  waits_ = true;
 }
 
 Result<bool> CaseSpeed::take(document::Case& document, const SpeedOrigin& origin,
@@ -41,8 +41,9 @@ Result<bool> CaseSpeed::take(document::Case& document, const SpeedOrigin& origin
   waits_ = false;
   const bool smooths = smoothing_.has_value();
   smoothing_.reset();
-  if (!made) return pass_on(made);
   document::LevelSet& level_set = document.level_set();
+  refused_form_ = level_set.parameters().data_form;
+  if (!made) return pass_on(made);
   TIDEMARK_TRY(smooths ? level_set.set_source(made->source, origin.smoothed_mm, made->speed)
                        : level_set.set_speed(made->speed));
   made_ = origin;
@@ -51,7 +52,7 @@ Result<bool> CaseSpeed::take(document::Case& document, const SpeedOrigin& origin
 }
 
 bool CaseSpeed::holds_steps(const document::Case& document) const {
-  if (!wish_ || !waits_) return false;
+  if (!wish_) return false;
   if (document.level_set().lacks_speed()) return true;
   return !wish_->setting.is_tent() && functions_of(*wish_) != functions_of(made_);
 }

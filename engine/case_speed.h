@@ -28,7 +28,8 @@ class CaseSpeed {
   Result<bool> take(document::Case& document, const SpeedOrigin& origin, const SpeedMaker::Made& made);
 
   [[nodiscard]] bool waits() const { return waits_; }
-  // While another kind of function is on its way, the surface does not move by the one before.
+  // While another kind of function is on its way or cannot be had, the surface does not move by the one
+  // before.
   [[nodiscard]] bool holds_steps(const document::Case& document) const;
   // One that could not be had is tried again.
   void try_again();
@@ -39,6 +40,8 @@ class CaseSpeed {
   SpeedOrigin made_;                 // of the function that drives the surface
   std::optional<SpeedOrigin> wish_;  // on its way, or cannot be had
   bool waits_ = false;               // the former
+  // With it the wish could not be had: the raw form of the tent cannot be joined.
+  solver::DataForm refused_form_ = solver::DataForm::clamped;
   SpeedMaker maker_;
 };
 

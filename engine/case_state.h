@@ -14,6 +14,7 @@
 #include "document/outcome.h"
 #include "document/region_statistics.h"
 #include "engine/case_history.h"
+#include "engine/surface_maps.h"
 #include "solver/balance.h"
 #include "solver/executor.h"
 #include "solver/statistics.h"
@@ -46,8 +47,9 @@ struct CaseState {
   double time_step = 0.0;
   double band = 2.5;
   document::Drive drive;
-  std::shared_ptr<const solver::SpeedFunction> speed;      // that drives it now, or will; null: the tent
-  bool speed_waits = false;                                // another one is being made
+  std::shared_ptr<const solver::SpeedFunction> speed;  // that drives it now, or will; null: the tent
+  bool speed_waits = false;                            // another one is being made
+  bool lacks_speed = false;  // the drive's is not there: nothing drives it, and `speed` is null
   std::shared_ptr<const solver::Constraints> constraints;  // of the drive and of a start; null: none
   double smoothed_mm = 0.0;
   std::optional<double> smoothing;       // to that many mm, on its way
@@ -77,9 +79,10 @@ struct CaseState {
   bool modified = false;                              // something would be lost
   QString start_text;                                 // how it began
   std::shared_ptr<const solver::MotionLimit> limit;   // of a mask that is refined; null: none
+  SurfaceMap surface_map = SurfaceMap::none;          // that views show
 };
 
-// What the next step computes with; none without a surface that was measured.
+// What the next step computes with; none without a surface that was measured, or where nothing drives it.
 [[nodiscard]] std::optional<solver::StepInputs> step_inputs(const CaseState& state);
 
 }  // namespace tidemark::engine

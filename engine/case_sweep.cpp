@@ -2,7 +2,6 @@
 
 #include "document/sweep_picture.h"
 #include "engine/case_proxy.h"
-#include "engine/message_text.h"
 
 namespace tidemark::engine {
 namespace {
@@ -75,7 +74,7 @@ void CaseSweep::start(const std::vector<document::SweepAxis>& axes) {
     if (this_time != asked_ || !waiting_) return;
     waiting_ = false;
     if (start) return compute(*start, options);
-    emit failed(message_text(start.error()));
+    end_by(start.error());
   });
   emit changed();
 }

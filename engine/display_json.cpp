@@ -1,17 +1,18 @@
 #include "engine/display_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "core/json/json.h"
 #include "core/json/json_field.h"
+#include "document/file_limits.h"
 
 namespace tidemark::engine {
 namespace {
 
-constexpr double kFarthest = 1e6;  // mm: nothing in a patient is as far away
-constexpr std::size_t kMostImages = 64;
+constexpr double kMostSkew = 1e-3;  // of two unit vectors: the cosine of the angle between them
 constexpr std::int64_t kMostStrokeSteps = 1'000'000;
 constexpr JsonLimits kLimits{.bytes = std::size_t{16} << 20, .values = std::size_t{1} << 20};
 
@@ -30,13 +31,22 @@ void read(const JsonField& parent, const char* key, double low, double high, dou
   if (parent.has(key)) value = parent.at(key).number(low, high);
 }
 void read(const JsonField& parent, const char* key, glm::dvec3& value) {
-  if (parent.has(key)) value = parent.at(key).vector(-kFarthest, kFarthest);
+  if (parent.has(key)) value = parent.at(key).vector(-document::kFarthest_mm, document::kFarthest_mm);
 }
 void read_unit(const JsonField& parent, const char* key, glm::dvec3& value) {
   if (!parent.has(key)) return;
   const glm::dvec3 read = parent.at(key).vector(-1.0, 1.0);
   if (glm::length(read) < 0.5) return parent.at(key).wrong("is not a direction");
   value = glm::normalize(read);
+}
+// Numbers of few digits are nearly at right angles, and are brought there.
+void read_plane(const JsonField& parent, renderer::SliceOrientation& plane) {
+  read_unit(parent, "oblique_right", plane.right);
+  read_unit(parent, "oblique_up", plane.up);
+  const double skew = glm::dot(plane.right, plane.up);
+  if (std::abs(skew) > kMostSkew)
+    return parent.at("oblique_up").wrong("is not at right angles to oblique_right");
+  if (skew != 0.0) plane.up = glm::normalize(plane.up - plane.right * skew);
 }
 // Volumes of floats have any values.
 void read_window(const JsonField& parent, WindowLevel& window) {
@@ -75,8 +85,7 @@ void read_slices(const JsonField& field, DisplaySettings& s) {
   read(field, "cursor_mm", s.cursor_mm);
   read(field, "centre_mm", s.slice_centre_mm);
   read(field, "zoom", 0.01, 1000.0, s.slice_zoom);
-  read_unit(field, "oblique_right", s.oblique.right);
-  read_unit(field, "oblique_up", s.oblique.up);
+  read_plane(field, s.oblique);
   read_window(field, s.window);
   read(field, "nearest", s.nearest);
   read(field, "outline", s.outline);
@@ -126,7 +135,7 @@ void read_volume(const JsonField& field, DisplaySettings& s) {
   read(field, "azimuth", -360.0, 360.0, s.camera.azimuth);
   read(field, "elevation", -90.0, 90.0, s.camera.elevation);
   read(field, "zoom", 0.01, 1000.0, s.camera.zoom);
-  if (field.has("focus_mm")) s.camera.focus_mm = field.at("focus_mm").vector(-kFarthest, kFarthest);
+  if (field.has("focus_mm")) read(field, "focus_mm", s.camera.focus_mm.emplace());
   read_enum(field, "mode", 2, s.mode);
   read(field, "surface", s.surface);
   if (field.has("surface_colour")) {
@@ -152,20 +161,22 @@ void read_volume(const JsonField& field, DisplaySettings& s) {
   read(field, "volume_box", s.volume_box);
   read(field, "clip_on", s.clip_on);
   read_unit(field, "clip_normal", s.clip.normal);
-  read(field, "clip_offset_mm", -kFarthest, kFarthest, s.clip.offset_mm);
+  read(field, "clip_offset_mm", -document::kFarthest_mm, document::kFarthest_mm, s.clip.offset_mm);
   read(field, "clips_source", s.clip.clips_source);
   read(field, "clips_surface", s.clip.clips_surface);
   read(field, "clip_picture", s.clip.picture);
 }
 
+Json json_of(const Measurement& measurement) {
+  Json points = Json::array();
+  for (const glm::dvec3& point : measurement.points_mm) points.push_back(json_of(point));
+  return {{"kind", measurement.kind == Measurement::Kind::distance ? "distance" : "angle"},
+          {"points_mm", points}};
+}
+
 Json measurements_json(const DisplaySettings& s) {
   Json list = Json::array();
-  for (const Measurement& measurement : s.measurements) {
-    Json points = Json::array();
-    for (const glm::dvec3& point : measurement.points_mm) points.push_back(json_of(point));
-    list.push_back({{"kind", measurement.kind == Measurement::Kind::distance ? "distance" : "angle"},
-                    {"points_mm", points}});
-  }
+  for (const Measurement& measurement : s.measurements) list.push_back(json_of(measurement));
   return list;
 }
 
@@ -184,7 +195,7 @@ Json images_json(const DisplaySettings& s) {
 }
 
 void read_images(const JsonField& field, DisplaySettings& s) {
-  const std::size_t count = std::min(field.size(kMostImages), s.images.size());
+  const std::size_t count = std::min(field.size(document::kMostImages), s.images.size());
   for (std::size_t i = 0; i < count; ++i) {
     const JsonField one = field.at(i);
     ShownImage& shown = s.images[i];
@@ -196,36 +207,51 @@ void read_images(const JsonField& field, DisplaySettings& s) {
   }
 }
 
-void read_measurements(const JsonField& field, DisplaySettings& s) {
-  constexpr std::size_t kMost = 1000;
-  s.measurements.clear();
-  for (std::size_t i = 0; i < field.size(kMost); ++i) {
-    const JsonField one = field.at(i);
-    Measurement measurement;
-    measurement.kind = one.at("kind").word({"distance", "angle"}) == 0 ? Measurement::Kind::distance
+Measurement read_measurement(const JsonField& field) {
+  Measurement measurement;
+  measurement.kind = field.at("kind").word({"distance", "angle"}) == 0 ? Measurement::Kind::distance
                                                                        : Measurement::Kind::angle;
-    const JsonField points = one.at("points_mm");
-    for (std::size_t p = 0; p < points.size(3); ++p) {
-      measurement.points_mm.push_back(points.at(p).vector(-kFarthest, kFarthest));
+  const JsonField points = field.at("points_mm");
+  for (std::size_t p = 0; p < points.size(3); ++p) {
+    measurement.points_mm.push_back(points.at(p).vector(-document::kFarthest_mm, document::kFarthest_mm));
+  }
+  return measurement;
+}
+
+// With the line of a profile.
+void read_measurements(const JsonField& root, DisplaySettings& s) {
+  constexpr std::size_t kMost = 1000;
+  if (root.has("measurements")) {
+    const JsonField list = root.at("measurements");
+    s.measurements.clear();
+    for (std::size_t i = 0; i < list.size(kMost); ++i) {
+      Measurement measurement = read_measurement(list.at(i));
+      if (measurement.complete()) s.measurements.push_back(std::move(measurement));
     }
-    if (measurement.complete()) s.measurements.push_back(std::move(measurement));
+  }
+  if (root.has("profile")) {
+    Measurement line = read_measurement(root.at("profile"));
+    if (line.kind != Measurement::Kind::distance || !line.complete())
+      return root.at("profile").wrong("is not a line");
+    s.profile = std::move(line);
   }
 }
 
 }  // namespace
 
 std::string to_json(const DisplaySettings& s) {
-  return Json{{"slices", slices_json(s)},
-              {"volume", volume_json(s)},
-              {"tool", static_cast<int>(s.tool)},
-              {"brush_mm", s.brush_mm},
-              {"stroke_voxels", s.stroke_voxels},
-              {"stroke_steps", s.stroke_steps},
-              {"wall_behind_eraser", s.wall_behind_eraser},
-              {"chosen_primitive", s.chosen_primitive},
-              {"images", images_json(s)},
-              {"measurements", measurements_json(s)}}
-      .dump();
+  Json json{{"slices", slices_json(s)},
+            {"volume", volume_json(s)},
+            {"tool", static_cast<int>(s.tool)},
+            {"brush_mm", s.brush_mm},
+            {"stroke_voxels", s.stroke_voxels},
+            {"stroke_steps", s.stroke_steps},
+            {"wall_behind_eraser", s.wall_behind_eraser},
+            {"chosen_primitive", s.chosen_primitive},
+            {"images", images_json(s)},
+            {"measurements", measurements_json(s)}};
+  if (s.profile) json["profile"] = json_of(*s.profile);
+  return json.dump();
 }
 
 Result<DisplaySettings> display_settings(const std::string& text, DisplaySettings s) {
@@ -243,7 +269,16 @@ Result<DisplaySettings> display_settings(const std::string& text, DisplaySetting
   if (root.has("chosen_primitive"))
     s.chosen_primitive = static_cast<int>(root.at("chosen_primitive").integer(0, 1000));
   if (root.has("images")) read_images(root.at("images"), s);
-  if (root.has("measurements")) read_measurements(root.at("measurements"), s);
+  read_measurements(root, s);
+  if (!root.good()) return pass_on(root.status());
+  return s;
+}
+
+Result<DisplaySettings> display_measurements(const std::string& text, DisplaySettings s) {
+  const auto json = JsonDocument::parse(text, "view state", kLimits);
+  if (!json) return pass_on(json);
+  const JsonField root = root_of(*json, "view state");
+  read_measurements(root, s);
   if (!root.good()) return pass_on(root.status());
   return s;
 }

@@ -12,5 +12,7 @@ namespace tidemark::engine {
 // Fields that are missing keep the values of `settings`. Fails (ErrorKind::input) naming one that makes no
 // sense.
 Result<DisplaySettings> display_settings(const std::string& json, DisplaySettings settings);
+// The measurements and the line of a profile alone, whatever else makes no sense.
+Result<DisplaySettings> display_measurements(const std::string& json, DisplaySettings settings);
 
 }  // namespace tidemark::engine

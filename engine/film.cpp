@@ -6,7 +6,6 @@
 #include "document/evolution.h"
 #include "imaging/files/gif_file.h"
 #include "renderer/renderer.h"
-#include "solver/model.h"
 
 namespace tidemark::engine {
 namespace {

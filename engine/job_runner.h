@@ -53,13 +53,14 @@ class JobRunner : public QObject {
     });
   }
 
+  // Signals that end of work.
+  void end_by(const Error& error);
   void give_up();      // drops the signals of the running work; emits cancelled() if there was any
   void ask_to_stop();  // its end is still signalled
 
  private:
   using Ending = std::function<void()>;  // to be called here
   void start(std::function<Ending(const Progress&)> work);
-  void end_by(const Error& error);
 
   std::shared_ptr<BackgroundJob> job_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/message_text.h"
+
 namespace tidemark::engine {
 namespace {
 
@@ -74,27 +76,38 @@ void JointCounter::forget() {
   job_.reset();
   question_ = {};
   answer_.reset();
+  problem_.clear();
 }
 
 void JointCounter::ask(const Question& question) {
   if (question == question_) return;
+  if (question.first != question_.first || question.second != question_.second) answer_.reset();
   question_ = question;
+  problem_.clear();
   if (job_) job_->abandon();
   job_ = BackgroundJob::start(
       this,
       [this, question](BackgroundJob& job) {
         const auto second = document::on_grid(*question.second, question.first->geometry);
-        auto joint = std::make_shared<JointHistogram>();
-        if (second) {
-          *joint = joint_histogram(*question.first, **second, question.strokes.get(), job.stop());
-        }
-        job.deliver([this, joint = std::move(joint)] {
+        if (!second) return job.deliver([this, error = second.error()] { give_up(error); });
+        const auto joint = std::make_shared<const JointHistogram>(
+            joint_histogram(*question.first, **second, question.strokes.get(), job.stop()));
+        job.deliver([this, joint] {
           job_.reset();
           answer_ = joint;
           emit answered();
         });
       },
-      [this](const Error&) { job_.reset(); });
+      [this](const Error& error) { give_up(error); });
+}
+
+// Images that do not fit never will; memory may come back.
+void JointCounter::give_up(const Error& error) {
+  job_.reset();
+  if (error.kind != ErrorKind::usage) question_ = {};
+  answer_.reset();
+  problem_ = message_text(error);
+  emit answered();
 }
 
 }  // namespace tidemark::engine

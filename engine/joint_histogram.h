@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <QString>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -48,16 +49,22 @@ class JointCounter : public QObject {
   ~JointCounter() override;
 
   void ask(const Question& question);
-  // The newest that is there; null: none yet. Empty where the image shares no place with the first.
+  // The newest of those two images; null: none yet, or problem() says why.
   [[nodiscard]] const std::shared_ptr<const JointHistogram>& answer() const { return answer_; }
+  // Why there is no answer; empty: it is there, or on its way. Where it may go better another time, the same
+  // question can be asked again.
+  [[nodiscard]] const QString& problem() const { return problem_; }
   void forget();
 
  signals:
-  void answered();
+  void answered();  // or there is a problem
 
  private:
+  void give_up(const Error& error);
+
   Question question_;
   std::shared_ptr<const JointHistogram> answer_;
+  QString problem_;
   std::shared_ptr<BackgroundJob> job_;  // while one runs
 };
 

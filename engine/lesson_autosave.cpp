@@ -1,6 +1,7 @@
 #include "engine/lesson_autosave.h"
 
 #include <mutex>
+#include <utility>
 
 #include "engine/background_job.h"
 #include "engine/message_text.h"
@@ -37,8 +38,9 @@ struct LessonAutosave::Copy {
   }
 };
 
-LessonAutosave::LessonAutosave(LessonCourse& course, std::filesystem::path file, std::filesystem::path folder)
-    : course_(course), copy_(std::make_shared<Copy>()) {
+LessonAutosave::LessonAutosave(LessonCourse& course, std::filesystem::path file, std::filesystem::path folder,
+                               std::chrono::milliseconds retry)
+    : course_(course), copy_(std::make_shared<Copy>()), retry_(retry) {
   copy_->folder = std::move(folder);
   copy_->lesson = course.lesson();
   copy_->lesson_file = std::move(file);
@@ -55,7 +57,7 @@ LessonAutosave::~LessonAutosave() {
 }
 
 void LessonAutosave::follow() {
-  if (writing_ || failed_ || timer_.isActive() || !course_.begun() || course_.progress() == seen_) return;
+  if (writing_ || timer_.isActive() || !course_.begun() || course_.progress() == seen_) return;
   timer_.start(kDelay);
 }
 
@@ -73,12 +75,13 @@ void LessonAutosave::save() {
 
 void LessonAutosave::copied(const Status& status) {
   writing_ = false;
-  if (!status) {
-    failed_ = true;
-    return emit failed(message_text(status.error()));
+  const bool fails_again = std::exchange(fails_, !status.has_value());
+  if (status) {
+    emit saved();
+    return follow();
   }
-  emit saved();
-  follow();
+  timer_.start(retry_);
+  if (!fails_again) emit failed(message_text(status.error()));
 }
 
 }  // namespace tidemark::engine

@@ -137,14 +137,21 @@ void LessonCourse::take_case(CaseProxy& proxy) {
                cases_.end());
   cases_.push_back({study, &proxy, {}, 0, 0});
   // Once it is gone: those who listen look at windows, and its window is being destroyed with it.
-  const auto follow_closing = [this] {
-    end_attempt();
-    emit changed();
-  };
-  connect(&proxy, &QObject::destroyed, this, follow_closing, Qt::QueuedConnection);
+  connect(&proxy, &QObject::destroyed, this, &LessonCourse::follow_closing, Qt::QueuedConnection);
   connect(&proxy, &CaseProxy::state_changed, this, &LessonCourse::changed);
-  connect(&proxy, &CaseProxy::failed, this, &LessonCourse::end_attempt);
+  connect(&proxy, &CaseProxy::failed, this, [this, of = &proxy] { follow_failure(*of); });
   if (attempt_) return begin();
+  emit changed();
+}
+
+void LessonCourse::follow_failure(const CaseProxy& of) {
+  if (attempt_ && attempt_->on && attempt_->on->proxy == &of) break_off();
+}
+
+// A case that is gone sends no figures; those that the meter is taking still come.
+void LessonCourse::follow_closing() {
+  if (attempt_ && attempt_->on && !attempt_->on->proxy) end_attempt();
+  if (!meter_.busy() && !case_of(measured_part_)) measuring_ = false;
   emit changed();
 }
 
@@ -245,14 +252,19 @@ void LessonCourse::end_attempt() {
   emit changed();
 }
 
-void LessonCourse::stop() {
-  if (!attempt_) return;
-  close_study();
+// The case is left at rest, and without the pace of the try.
+void LessonCourse::break_off() {
   if (attempt_->on && attempt_->on->proxy) {
     attempt_->on->proxy->pause();
     attempt_->on->proxy->set_pace(0.0);
   }
   end_attempt();
+}
+
+void LessonCourse::stop() {
+  if (!attempt_) return;
+  close_study();
+  break_off();
 }
 
 double LessonCourse::fraction() const {

@@ -103,6 +103,9 @@ class LessonCourse : public QObject {
   void wait_for_source();
   void play();
   void follow_end(bool reached);
+  void follow_failure(const CaseProxy& of);
+  void follow_closing();
+  void break_off();
   void end_attempt();
   void take_figures(const std::vector<std::optional<double>>& figures);
 

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "core/atomic_file.h"
 #include "imaging/phantom/phantom_name.h"
 
 namespace tidemark::engine {
@@ -23,16 +22,6 @@ void LessonJobs::load(const std::filesystem::path& file) {
         return std::make_shared<const document::Lesson>(std::move(*lesson));
       },
       [this](const Loaded& lesson) { emit loaded(lesson); });
-}
-
-void LessonJobs::write(const document::Lesson& lesson, const std::filesystem::path& file) {
-  run(
-      [lesson, file](const Progress&) -> Status {
-        const auto text = lesson.to_text();
-        if (!text) return pass_on(text);
-        return write_file(file, *text);
-      },
-      [this] { emit written(); });
 }
 
 void LessonJobs::carry_out(const document::Lesson& lesson, const std::filesystem::path& folder) {

@@ -1,4 +1,4 @@
-// The reading, writing and carrying out of lessons, beside the user interface.
+// The reading and carrying out of lessons, beside the user interface.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,6 @@ class LessonJobs : public JobRunner {
 
   // Each ends with the signal of that name, or with failed() or cancelled().
   void load(const std::filesystem::path& file);
-  void write(const document::Lesson& lesson, const std::filesystem::path& file);
   // By the host executor. `folder` holds the lesson's file.
   void carry_out(const document::Lesson& lesson, const std::filesystem::path& folder);
   // The parameters that suit a phantom, as imaging::named_phantom() takes it.
@@ -29,7 +28,6 @@ class LessonJobs : public JobRunner {
 
  signals:
   void loaded(std::shared_ptr<const tidemark::document::Lesson> lesson);
-  void written();
   // One outcome a part.
   void carried_out(const std::vector<tidemark::document::LessonOutcome>& outcomes);
   void suited(const tidemark::solver::Parameters& parameters);

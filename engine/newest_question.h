@@ -18,7 +18,8 @@ namespace tidemark::engine {
 template <class Question, class Answer>
 class NewestQuestion {
  public:
-  // `answer` runs on a thread of its own; `answered` is called on the receiver's.
+  // The work runs on a thread of its own; `answered` is called on the receiver's, also where the work was cut
+  // off: there is no answer then, and the same question can be asked again.
   using Work = std::function<Answer(const Question&, const std::stop_token&)>;
   // `rest`: after an answer nothing is asked for that many times as long as it took.
   NewestQuestion(QObject* receiver, Work work, std::function<void()> answered, int rest = 0)
@@ -69,10 +70,15 @@ class NewestQuestion {
           auto answered = std::make_shared<Answered>(Answered{question, work(question, job.stop())});
           job.deliver([this, answered] { take(std::move(*answered)); });
         },
-        [this, question = *asked_](const Error&) {
-          job_.reset();
-          if (asked_ != question) start();
-        });
+        [this, question = *asked_](const Error&) { drop(question); });
+  }
+  // A former answer would pass for that of the question that was cut off.
+  void drop(const Question& question) {
+    job_.reset();
+    answer_.reset();
+    if (asked_ != question) return start();
+    answered_();
+    if (asked_ == question && !job_) asked_.reset();
   }
   // The receiver may ask something else, or forget, on the answer.
   void take(Answered answered) {

@@ -14,9 +14,8 @@ class RegistrationJob : public JobRunner {
  public:
   explicit RegistrationJob(QObject* parent = nullptr);
 
-  // Ends with registered(), failed() or cancelled(). The search begins where the image is now.
+  // Ends with registered() or failed(). The search begins where the image is now.
   void start(std::shared_ptr<const document::CaseImage> image, std::shared_ptr<const Volume> study);
-  void cancel() { give_up(); }
 
  signals:
   void registered(const tidemark::imaging::Registration& found);

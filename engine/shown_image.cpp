@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "document/checksum.h"
+#include "document/file_limits.h"
 #include "engine/study_loader.h"
 #include "imaging/resample.h"
 
@@ -36,7 +37,7 @@ ShownImage shown_image(std::shared_ptr<const document::CaseImage> image) {
   ShownImage shown;
   if (image->volume) {
     const auto [low, high] = image->volume->common_range();
-    shown.window.width = std::max<double>(static_cast<double>(high) - static_cast<double>(low), 1e-6);
+    shown.window.width = high > low ? static_cast<double>(high) - static_cast<double>(low) : 1e-6;
     shown.window.centre = static_cast<double>(low) + 0.5 * shown.window.width;
   }
   shown.image = std::move(image);
@@ -75,17 +76,25 @@ void use_images(std::vector<ShownImage>& images,
   images = std::move(now);
 }
 
-void add_image(std::vector<ShownImage>& images, ShownImage added) {
+Status add_image(std::vector<ShownImage>& images, ShownImage added) {
   const auto missing = std::ranges::find_if(images, [&](const ShownImage& shown) {
     return !shown.image->volume && !added.image->checksum.empty() &&
            shown.image->checksum == added.image->checksum;
   });
-  if (missing == images.end()) return images.push_back(std::move(added));
+  if (missing == images.end()) {
+    if (images.size() >= document::kMostImages) {
+      return fail(ErrorKind::usage, "a study takes at most {} further images: take one away first",
+                  document::kMostImages);
+    }
+    images.push_back(std::move(added));
+    return {};
+  }
   auto image = std::make_shared<document::CaseImage>(*added.image);
   image->to_case = missing->image->to_case;
   added.used = missing->used;
   added.image = std::move(image);
   *missing = std::move(added);
+  return {};
 }
 
 bool is_placed(const document::CaseImage& image, const LoadedStudy& study) {

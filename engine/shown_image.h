@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/result.h"
 #include "document/drive.h"
 
 namespace tidemark::engine {
@@ -38,8 +39,9 @@ struct ShownImage {
 // already, they come before the others. Those that are not in the list are added to it.
 void use_images(std::vector<ShownImage>& images,
                 const std::vector<std::shared_ptr<const document::CaseImage>>& used);
-// Adds it, or puts it in place of a missing one of the same voxels.
-void add_image(std::vector<ShownImage>& images, ShownImage added);
+// Adds it, or puts it in place of a missing one of the same voxels. Fails (ErrorKind::usage) where there are
+// as many as a file holds.
+Status add_image(std::vector<ShownImage>& images, ShownImage added);
 
 // Whether the image is known to lie in the study's patient coordinates: by one frame of reference, or by a
 // registration.

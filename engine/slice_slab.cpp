@@ -6,9 +6,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/index_walk.h"
-
 namespace tidemark::engine {
+namespace {
+
+constexpr double kTie = 1e-6;  // of the thickness
+
+}  // namespace
 
 SliceSlab::SliceSlab(const Geometry& geometry, glm::dvec3 point_mm, glm::dvec3 normal)
     : geometry_(geometry), normal_(normal) {
@@ -25,8 +28,12 @@ SliceSlab::SliceSlab(const Geometry& geometry, glm::dvec3 point_mm, glm::dvec3 n
   std::sort(axes_.begin(), axes_.begin() + 2);
   // A plane half way between two slices belongs to the one that pictures show, the upper one of the grid,
   // whatever the rounding.
-  constexpr double kTie = 1e-6;
   from_mm_ -= std::copysign(kTie * thickness_mm, per_voxel_mm_[axes_[2]]);
+}
+
+bool SliceSlab::is_near(glm::dvec3 place_mm) const {
+  const double away_mm = std::abs(from_mm_ + glm::dot(place_mm - geometry_.origin_mm, normal_));
+  return away_mm <= half_mm_ * (1.0 + 4.0 * kTie);
 }
 
 double SliceSlab::finest_mm() const {
@@ -48,6 +55,22 @@ bool SliceSlab::meets(Index3 first, Index3 size) const {
   return high > -half_mm_ && low <= half_mm_;
 }
 
+template <class Visit>
+void SliceSlab::for_each_near(std::int64_t column, std::int64_t row, const Visit& visit) const {
+  const int across = axes_[2];
+  const double middle = depth_of({column, row});
+  const double reach = half_mm_ / std::abs(per_voxel_mm_[across]);
+  const auto last =
+      std::min<std::int64_t>(std::llround(std::ceil(middle + reach)), geometry_.size[across] - 1);
+  Index3 voxel(0);
+  voxel[axes_[0]] = column;
+  voxel[axes_[1]] = row;
+  voxel[across] = std::max<std::int64_t>(std::llround(std::floor(middle - reach)), 0);
+  for (; voxel[across] <= last; ++voxel[across]) {
+    if (contains(voxel)) visit(voxel);
+  }
+}
+
 std::vector<std::int64_t> SliceSlab::disc(glm::dvec3 centre_mm, double radius_mm) const {
   const glm::dvec3 centre = geometry_.to_voxel(centre_mm);
   const glm::dvec3 reach = (radius_mm + 2.0 * half_mm_) / geometry_.spacing_mm;
@@ -55,13 +78,17 @@ std::vector<std::int64_t> SliceSlab::disc(glm::dvec3 centre_mm, double radius_mm
   const Index3 high = glm::min(Index3(glm::ceil(centre + reach)), geometry_.size - Index3(1));
   const Index3 under(glm::round(centre));
   std::vector<std::int64_t> voxels;
-  for_each_index(low, high + Index3(1), [&](Index3 voxel) {
-    if (!contains(voxel)) return;
+  const auto add_within = [&](Index3 voxel) {
     const glm::dvec3 way = geometry_.to_patient(glm::dvec3(voxel)) - centre_mm;
     const glm::dvec3 in_plane = way - normal_ * glm::dot(way, normal_);
     if (voxel == under || glm::dot(in_plane, in_plane) <= radius_mm * radius_mm)
       voxels.push_back(geometry_.offset(voxel));
-  });
+  };
+  for (std::int64_t row = low[axes_[1]]; row <= high[axes_[1]]; ++row) {
+    for (std::int64_t column = low[axes_[0]]; column <= high[axes_[0]]; ++column)
+      for_each_near(column, row, add_within);
+  }
+  std::sort(voxels.begin(), voxels.end());
   return voxels;
 }
 
@@ -79,6 +106,7 @@ std::vector<std::int64_t> SliceSlab::inside(const std::vector<glm::dvec3>& polyg
   const auto first_row = std::max<std::int64_t>(std::llround(std::ceil(low)), 0);
   const auto last_row = std::min<std::int64_t>(std::llround(std::floor(high)), geometry_.size[axes_[1]] - 1);
   std::vector<std::int64_t> voxels;
+  const auto add = [&](Index3 voxel) { voxels.push_back(geometry_.offset(voxel)); };
   std::vector<double> crossings;
   for (std::int64_t row = first_row; row <= last_row; ++row) {
     const auto y = static_cast<double>(row);
@@ -93,7 +121,7 @@ std::vector<std::int64_t> SliceSlab::inside(const std::vector<glm::dvec3>& polyg
       const auto from = std::max<std::int64_t>(std::llround(std::ceil(crossings[n])), 0);
       const auto to =
           std::min<std::int64_t>(std::llround(std::floor(crossings[n + 1])), geometry_.size[axes_[0]] - 1);
-      for (std::int64_t column = from; column <= to; ++column) add_near(column, row, voxels);
+      for (std::int64_t column = from; column <= to; ++column) for_each_near(column, row, add);
     }
   }
   std::sort(voxels.begin(), voxels.end());
@@ -126,17 +154,6 @@ glm::dvec3 SliceSlab::place_of(glm::dvec2 column) const {
   voxel[axes_[1]] = column.y;
   voxel[axes_[2]] = depth_of(column);
   return geometry_.to_patient(voxel);
-}
-
-void SliceSlab::add_near(std::int64_t column, std::int64_t row, std::vector<std::int64_t>& voxels) const {
-  const int across = axes_[2];
-  Index3 voxel(0);
-  voxel[axes_[0]] = column;
-  voxel[axes_[1]] = row;
-  const std::int64_t middle = std::llround(depth_of({column, row}));
-  for (voxel[across] = middle - 1; voxel[across] <= middle + 1; ++voxel[across]) {
-    if (geometry_.contains(voxel) && contains(voxel)) voxels.push_back(geometry_.offset(voxel));
-  }
 }
 
 }  // namespace tidemark::engine

@@ -20,6 +20,8 @@ class SliceSlab {
   SliceSlab(const Geometry& geometry, glm::dvec3 point_mm, glm::dvec3 normal);
 
   [[nodiscard]] bool contains(Index3 voxel) const { return contains(distance_mm(voxel)); }
+  // Whether a place (LPS, mm) is within half a voxel of the plane.
+  [[nodiscard]] bool is_near(glm::dvec3 place_mm) const;
   // Whether the other one is of the same plane.
   [[nodiscard]] bool is_same_as(const SliceSlab& other) const;
   // Whether voxels of the box can be in it.
@@ -47,8 +49,9 @@ class SliceSlab {
     return from_mm_ + static_cast<double>(voxel.x) * per_voxel_mm_.x +
            static_cast<double>(voxel.y) * per_voxel_mm_.y + static_cast<double>(voxel.z) * per_voxel_mm_.z;
   }
-  // The slab's voxels of a column across the slice.
-  void add_near(std::int64_t column, std::int64_t row, std::vector<std::int64_t>& voxels) const;
+  // Calls visit(voxel) for the slab's voxels of a column across the slice.
+  template <class Visit>
+  void for_each_near(std::int64_t column, std::int64_t row, const Visit& visit) const;
   // How far along the third axis a column meets the plane, in voxels.
   [[nodiscard]] double depth_of(glm::dvec2 column) const;
   [[nodiscard]] bool contains(double distance_mm) const {

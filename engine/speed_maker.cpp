@@ -25,6 +25,18 @@ SpeedMaker::Made made_from(const SpeedOrigin& origin, std::shared_ptr<const Volu
   return SpeedMaker::Pair{std::move(source), std::move(*speed)};
 }
 
+// What cannot be handed over is given back: there is memory then to say so.
+void hand_over(SpeedMaker::Made made, const SpeedMaker::Done& done) {
+  const auto call = [&]() -> Status {
+    done(std::move(made));
+    return {};
+  };
+  const Status told = without_exceptions(call);
+  if (told) return;
+  made = tl::unexpected<Error>(told.error());
+  static_cast<void>(without_exceptions(call));
+}
+
 }  // namespace
 
 SpeedOrigin speed_origin(const document::Drive& drive, std::shared_ptr<const Volume> volume,
@@ -51,16 +63,23 @@ void SpeedMaker::give_up() {
 void SpeedMaker::make(const SpeedOrigin& origin, std::shared_ptr<const Volume> source, Report report,
                       Done done) {
   give_up();
-  thread_ =
-      std::jthread([before = std::move(thread_), origin, source = std::move(source),
-                    report = std::move(report), done = std::move(done)](const std::stop_token& stop) mutable {
-        if (before.joinable()) before.join();
-        if (stop.stop_requested()) return;
-        auto made = without_exceptions([&] {
-          return made_from(origin, std::move(source), Progress{std::move(report), stop});
-        });
-        if (!stop.stop_requested()) done(std::move(made));
+  // Without a thread nobody waits for the one before.
+  const auto before = std::make_shared<std::jthread>(std::move(thread_));
+  const Status started = without_exceptions([&]() -> Status {
+    thread_ = std::jthread([before, origin, source = std::move(source), report = std::move(report),
+                            done](const std::stop_token& stop) mutable {
+      if (before->joinable()) before->join();
+      if (stop.stop_requested()) return;
+      auto made = without_exceptions([&] {
+        return made_from(origin, std::move(source), Progress{std::move(report), stop});
       });
+      if (!stop.stop_requested()) hand_over(std::move(made), done);
+    });
+    return {};
+  });
+  if (started) return;
+  thread_ = std::move(*before);
+  done(tl::unexpected<Error>(started.error()));
 }
 
 }  // namespace tidemark::engine

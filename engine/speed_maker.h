@@ -35,7 +35,8 @@ class SpeedMaker {
     std::shared_ptr<const solver::SpeedFunction> speed;  // null: the tent
   };
   using Made = Result<Pair>;
-  // Called on the maker's thread, and not at all when another one is wanted before.
+  // Called on the maker's thread, and not at all when another one is wanted before. Where it throws, it is
+  // called once more, with that error. Where no thread can be had, make() calls it with an error.
   using Done = std::function<void(Made)>;
   using Report = std::function<void(double fraction, std::string_view what)>;  // as Progress has it
 

@@ -9,6 +9,9 @@
 
 namespace tidemark::engine {
 
+// Which of them is shown in place of how far the surface has moved.
+enum class SurfaceMap { none, truth_error, spread };
+
 // From which distance on colours do not change any more, mm: three of the largest spacing, in whole mm.
 [[nodiscard]] double distance_range_mm(const Geometry& geometry);
 

@@ -1,5 +1,6 @@
 #include "tests/engine/ball_study.h"
 
+#include <QtGlobal>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -31,6 +32,31 @@ std::shared_ptr<const engine::LoadedStudy> ball_study() {
   study->parameters.target = 100.0;
   study->parameters.range = 50.0;
   study->parameters.alpha = 0.8;
+  return study;
+}
+
+std::shared_ptr<const document::SessionContents> ball_without_its_map() {
+  const auto study = ball_study();
+  const auto made =
+      document::Case::create(study->volume, study->origin, study->parameters, solver::ExecutorKind::host, {});
+  if (!made) qFatal("%s", made.error().message.c_str());
+  document::Start start;
+  start.seeds.push_back({renderer::middle_of(study->volume->geometry), 6.0});
+  if (const auto begun = (*made)->level_set().begin(start); !begun)
+    qFatal("%s", begun.error().message.c_str());
+  auto contents = document::snapshot_of(**made);
+  if (!contents) qFatal("%s", contents.error().message.c_str());
+  document::Drive drive;
+  drive.setting.terms = {{"image", {}}};
+  drive.map = std::make_shared<const document::SpeedMap>(document::SpeedMap{"map.nii", "none", nullptr, {}});
+  contents->recipe.drive = document::shared(drive);
+  contents->history = {};
+  return std::make_shared<const document::SessionContents>(std::move(*contents));
+}
+
+std::shared_ptr<const engine::LoadedStudy> hopeless_study() {
+  auto study = std::make_shared<engine::LoadedStudy>(*ball_study());
+  study->parameters.range = 0.0;
   return study;
 }
 

@@ -36,14 +36,6 @@ struct Edited : test::BallCase {
   engine::CaseAutosave autosave;
 };
 
-class Unclosable final : public document::OpenChange {
- public:
-  [[nodiscard]] document::Steering steering() const override { return {}; }
-  [[nodiscard]] document::ChangeDescription description() const override { return {}; }
-  [[nodiscard]] std::int64_t bytes() const override { return 0; }
-  Status close() override { return fail(ErrorKind::internal, "there is no way to close it"); }
-};
-
 }  // namespace
 
 class CaseAutosaveTest : public QObject {
@@ -52,21 +44,23 @@ class CaseAutosaveTest : public QObject {
  private slots:
   void cleanup() { QVERIFY(engine::BackgroundJob::finish_all(60s)); }
 
-  // What cannot be closed cannot be copied: the case says why, and the next attempt is a copy.
+  // What cannot be read back cannot be copied: the case says why, and the next attempt is a copy.
   void a_copy_that_was_given_up_is_made_the_next_time() {
     const test::TemporaryFolder folder;
-    Edited edited(folder / "recovery");
+    Edited edited(folder / "recovery", solver::ExecutorKind::compute);
     QVERIFY(edited.proxy.state().modified);
     QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
     QSignalSpy failed(&edited.autosave, &engine::CaseAutosave::failed);
-    Unclosable change;
+    std::promise<void> asked;
     edited.proxy.runner()->post([&](engine::CaseRunner& runner, const Progress&) -> Status {
-      TIDEMARK_TRY(runner.document().history().close());
-      runner.document().history().open(change);
+      TIDEMARK_TRY(runner.document().level_set().paint({{20.0, 20.0, 20.0}, 5.0}, solver::Brush::add, 7));
+      edited.engine.device()->lose_at_check(1);
+      asked.get_future().wait();
       return {};
     });
     edited.autosave.save_now();
-    QTRY_COMPARE_WITH_TIMEOUT(edited.failures, QStringList{"there is no way to close it"}, kPatience);
+    asked.set_value();
+    QTRY_COMPARE_WITH_TIMEOUT(edited.failures.size(), 1, kPatience);
     edited.wait_until_idle();
     QVERIFY(engine::BackgroundJob::finish_all(60s));
     QCoreApplication::processEvents();
@@ -167,12 +161,50 @@ class CaseAutosaveTest : public QObject {
       QTRY_COMPARE_WITH_TIMEOUT(saved.size(), copies, kPatience);
       edited.wait_until_idle();
     }
-    // Nothing is open after a copy, and nothing new.
+    // The stroke is open still, and nothing of it is new.
     edited.autosave.save_now();
     edited.wait_until_idle();
     QVERIFY(engine::BackgroundJob::finish_all(60s));
     QCoreApplication::processEvents();
     QCOMPARE(saved.size(), 2);
+  }
+
+  void a_stroke_goes_on_over_a_copy() {
+    const test::TemporaryFolder folder;
+    Edited edited(folder / "recovery");
+    QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
+    const std::vector<float> before = edited.proxy.state().phi->dense();
+    const std::uint64_t stroke = engine::CaseProxy::new_gesture();
+    for (int copies = 1; copies <= 2; ++copies) {
+      edited.proxy.paint({edited.middle() + glm::dvec3(4.0 * copies, 0.0, 0.0), 5.0}, solver::Brush::add,
+                         stroke);
+      edited.wait_until_idle();
+      edited.autosave.save_now();
+      QTRY_COMPARE_WITH_TIMEOUT(saved.size(), copies, kPatience);
+    }
+    QVERIFY(edited.proxy.state().phi->dense() != before);
+    edited.proxy.undo();
+    edited.wait_until_idle();
+    QVERIFY(edited.proxy.state().phi->dense() == before);
+    QCOMPARE(edited.failures, QStringList());
+  }
+
+  void a_slider_goes_on_over_a_copy() {
+    const test::TemporaryFolder folder;
+    Edited edited(folder / "recovery");
+    QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
+    const double before = edited.proxy.parameters().target;
+    const std::uint64_t drag = engine::CaseProxy::new_gesture();
+    for (int copies = 1; copies <= 2; ++copies) {
+      edited.proxy.change_parameters(
+          [&](solver::Parameters& wanted) { wanted.target = before + 10.0 * copies; }, drag);
+      edited.wait_until_idle();
+      edited.autosave.save_now();
+      QTRY_COMPARE_WITH_TIMEOUT(saved.size(), copies, kPatience);
+    }
+    edited.proxy.undo();
+    edited.wait_until_idle();
+    QCOMPARE(edited.proxy.state().parameters.target, before);
   }
 
   void copies_are_made_as_time_goes_by() {
@@ -201,7 +233,7 @@ class CaseAutosaveTest : public QObject {
     QCOMPARE(document::find_recoverable(folder / "recovery").size(), std::size_t{1});
   }
 
-  // It is said once; to try again every half minute would say it again and again.
+  // Each attempt fails again, and only the first is worth a word.
   void a_folder_that_cannot_be_written_is_told_once() {
     const test::TemporaryFolder folder;
     std::ofstream(folder / "recovery") << "a file in the folder's place";
@@ -219,6 +251,21 @@ class CaseAutosaveTest : public QObject {
     QCoreApplication::processEvents();
     QCOMPARE(failed.size(), 1);
     QCOMPARE(saved.size(), 0);
+  }
+
+  void copies_are_made_again_once_there_is_room() {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "recovery") << "a file in the folder's place";
+    Edited edited(folder / "recovery");
+    QSignalSpy saved(&edited.autosave, &engine::CaseAutosave::saved);
+    QSignalSpy failed(&edited.autosave, &engine::CaseAutosave::failed);
+    edited.autosave.save_now();
+    QTRY_COMPARE_WITH_TIMEOUT(failed.size(), 1, kPatience);
+    edited.wait_until_idle();
+    std::filesystem::remove(folder / "recovery");
+    edited.autosave.save_now();  // nothing was done since the last attempt
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, kPatience);
+    QCOMPARE(failed.size(), 1);
   }
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/case_balance.h"
 #include "engine/speed_sampler.h"
 #include "solver/speed/speed_registry.h"
 #include "tests/engine/ball_case.h"
@@ -127,6 +128,44 @@ class CaseDriveTest : public QObject {
     proxy_->set_drive({});
     proxy_->play();
     QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().step > 0, kPatience);
+    QCOMPARE(ball_->failures.size(), 2);
+  }
+
+  // T and epsilon, which the tent has, say nothing of it.
+  void without_its_function_nothing_is_said_of_the_next_step() {
+    engine::CaseProxy lacking(ball_->engine, ball_study(), solver::ExecutorKind::host,
+                              {ball_without_its_map(), false});
+    QTRY_VERIFY_WITH_TIMEOUT(lacking.state().phi && lacking.state().lacks_speed, kPatience);
+    QVERIFY(lacking.state().begun);
+    QVERIFY(!engine::step_inputs(lacking.state()));
+    lacking.balance().ask(ball_->middle() + glm::dvec3(6.0, 0.0, 0.0));
+    QVERIFY(!lacking.balance().waits());
+    lacking.set_drive({});
+    QTRY_VERIFY_WITH_TIMEOUT(!lacking.state().lacks_speed, kPatience);
+    QVERIFY(engine::step_inputs(lacking.state()));
+    QTRY_VERIFY_WITH_TIMEOUT(lacking.balance().place(), kPatience);
+  }
+
+  void a_function_that_a_raw_tent_cannot_be_joined_with_comes_with_the_clamped_one() {
+    ball_->begin();
+    const auto set_form = [&](solver::DataForm form) {
+      proxy_->change_parameters([form](solver::Parameters& parameters) { parameters.data_form = form; });
+    };
+    set_form(solver::DataForm::raw);
+    document::Drive drive = proxy_->drive();
+    drive.setting.terms = {{"tent", {}}, {"edges", {}}};
+    proxy_->set_drive(drive);
+    QTRY_COMPARE_WITH_TIMEOUT(ball_->failures.size(), 1, kPatience);
+    QVERIFY2(ball_->failures.front().contains("raw form"), qPrintable(ball_->failures.front()));
+    // The tent alone does not move the surface meanwhile, and a step says why.
+    proxy_->step(1);
+    QTRY_COMPARE_WITH_TIMEOUT(ball_->failures.size(), 2, kPatience);
+    ball_->wait_until_idle();
+    QCOMPARE(proxy_->state().step, std::int64_t{0});
+    set_form(solver::DataForm::clamped);
+    QTRY_VERIFY_WITH_TIMEOUT(proxy_->state().speed && !proxy_->state().speed_waits, kPatience);
+    proxy_->step(1);
+    QTRY_COMPARE_WITH_TIMEOUT(proxy_->state().step, std::int64_t{1}, kPatience);
     QCOMPARE(ball_->failures.size(), 2);
   }
 

@@ -11,6 +11,7 @@
 #include <new>
 #include <thread>
 
+#include "engine/case_passes.h"
 #include "engine/case_runner.h"
 #include "engine/picture_feed.h"
 #include "engine/region_meter.h"
@@ -207,6 +208,22 @@ class CaseProxyTest : public QObject {
     fixture.proxy.undo();
     fixture.wait_until_idle();
     QCOMPARE(picture(), before);
+    QCOMPARE(fixture.failures, QStringList());
+  }
+
+  void undo_takes_back_what_was_done_since_a_smoothing_was_asked_for() {
+    Fixture fixture(solver::ExecutorKind::host, false);
+    fixture.begin();
+    const std::vector<float> before = fixture.proxy.state().phi->dense();
+    std::promise<void> go;
+    hold(fixture.engine, engine::Priority::edit, go);
+    fixture.proxy.smooth_source(1.5);
+    fixture.proxy.paint({fixture.middle(), 9.0}, solver::Brush::add, engine::CaseProxy::new_gesture());
+    fixture.proxy.undo();
+    go.set_value();
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.proxy.state().smoothed_mm, 1.5, kPatience);
+    fixture.wait_until_idle();
+    QVERIFY(fixture.proxy.state().phi->dense() == before);
     QCOMPARE(fixture.failures, QStringList());
   }
 
@@ -578,6 +595,24 @@ class CaseProxyTest : public QObject {
     go.set_value();
     QTRY_VERIFY_WITH_TIMEOUT(over, kPatience);
     QTRY_VERIFY_WITH_TIMEOUT(!fixture.proxy.is_asked(), kPatience);
+  }
+
+  void who_asks_a_case_that_cannot_go_on_is_answered() {
+    engine::Engine engine(false);
+    engine::CaseProxy proxy(engine, hopeless_study(), solver::ExecutorKind::host);
+    std::optional<bool> reached;
+    std::optional<ErrorKind> recorded;
+    std::optional<ErrorKind> prepared;
+    const auto kind_of = [](const auto& answer) {
+      return answer ? ErrorKind::internal : answer.error().kind;
+    };
+    proxy.play_for(3, false, [&](bool all) { reached = all; });
+    proxy.record_step(0, [&](const auto& answer) { recorded = kind_of(answer); });
+    proxy.prepare_sweep([&](const auto& answer) { prepared = kind_of(answer); });
+    QTRY_VERIFY_WITH_TIMEOUT(reached && recorded && prepared, kPatience);
+    QVERIFY(!*reached);
+    QCOMPARE(*recorded, ErrorKind::cancelled);
+    QCOMPARE(*prepared, ErrorKind::cancelled);
   }
 
   void a_session_that_goes_cancels_what_runs() {

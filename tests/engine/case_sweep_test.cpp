@@ -75,6 +75,19 @@ class CaseSweepTest : public QObject {
     QVERIFY(!proxy_->sweep().running() && !proxy_->sweep().outcome());
   }
 
+  void it_ends_where_its_case_cannot_go_on() {
+    engine::Engine engine(false);
+    engine::CaseProxy proxy(engine, hopeless_study(), solver::ExecutorKind::host);
+    engine::CaseSweep& sweep = proxy.sweep();
+    int cancelled = 0;
+    connect(&sweep, &engine::CaseSweep::cancelled, this, [&] { ++cancelled; });
+    sweep.start(axes_);
+    QVERIFY(sweep.running());
+    QTRY_VERIFY(!sweep.running());
+    QCOMPARE(cancelled, 1);
+    QVERIFY(!sweep.outcome());
+  }
+
  private:
   const std::vector<document::SweepAxis> axes_{{"alpha", 0.4, 0.9, 2}};
   std::optional<BallCase> ball_;

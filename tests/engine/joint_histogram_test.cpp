@@ -1,12 +1,16 @@
 // The joint histogram of two images, and where strokes lie in it.
 #include "engine/joint_histogram.h"
 
+#include <QSignalSpy>
 #include <QTest>
 #include <numeric>
 
 #include "tests/support/test_program.h"
 
 namespace tidemark::test::joint_histogram_test {
+
+using namespace std::chrono_literals;
+
 namespace {
 
 // Of 40 x 40 x 2 voxels: the first image rises along x, the second along y.
@@ -18,6 +22,12 @@ std::shared_ptr<const Volume> ramp(int axis) {
     values.push_back(static_cast<float>(axis == 0 ? i % 40 : i / 40 % 40) * 10.0F);
   volume->voxels = std::move(values);
   return volume;
+}
+
+std::shared_ptr<document::CaseImage> image(int axis) {
+  auto made = std::make_shared<document::CaseImage>();
+  made->volume = ramp(axis);
+  return made;
 }
 
 }  // namespace
@@ -69,11 +79,6 @@ class JointHistogramTest : public QObject {
     engine::JointCounter counter;
     auto strokes = std::make_shared<solver::Strokes>();
     strokes->inside = {0};
-    const auto image = [](int axis) {
-      auto made = std::make_shared<document::CaseImage>();
-      made->volume = ramp(axis);
-      return made;
-    };
     counter.ask({ramp(0), image(0), nullptr});
     counter.ask({ramp(0), image(1), strokes});
     QVERIFY(!counter.answer());  // counted elsewhere
@@ -81,6 +86,51 @@ class JointHistogramTest : public QObject {
     QCOMPARE(counter.answer()->inside.size(), std::size_t{1});
     counter.forget();
     QVERIFY(!counter.answer());
+  }
+
+  void other_images_have_no_answer_until_they_are_counted() {
+    engine::JointCounter counter;
+    const auto first = ramp(0);
+    const auto second = image(1);
+    counter.ask({first, second, nullptr});
+    QTRY_VERIFY(counter.answer());
+    counter.ask({first, second, std::make_shared<solver::Strokes>()});
+    QVERIFY(counter.answer());  // of the same images
+    counter.ask({first, image(0), nullptr});
+    QVERIFY(!counter.answer());
+    QTRY_VERIFY(counter.answer());
+  }
+
+  void images_that_share_no_place_are_told_of() {
+    engine::JointCounter counter;
+    const auto first = ramp(0);
+    const auto elsewhere = image(1);
+    elsewhere->to_case[3] = {1000.0, 0.0, 0.0, 1.0};
+    counter.ask({first, elsewhere, nullptr});
+    QTRY_VERIFY(!counter.problem().isEmpty());
+    QVERIFY2(counter.problem().contains("elsewhere"), qPrintable(counter.problem()));
+    QVERIFY(!counter.answer());
+    QSignalSpy answered(&counter, &engine::JointCounter::answered);
+    counter.ask({first, elsewhere, nullptr});
+    QVERIFY(engine::BackgroundJob::finish_all(60s));
+    QCoreApplication::processEvents();
+    QCOMPARE(answered.size(), 0);  // nothing has changed
+  }
+
+  void a_count_that_lacks_memory_can_be_asked_for_again() {
+    engine::JointCounter counter;
+    counter.ask({ramp(0), image(1), nullptr});
+    QTRY_VERIFY(counter.answer());
+    const auto huge = std::make_shared<Volume>();
+    huge->geometry.size = {1 << 21, 1 << 20, 1 << 20};  // no vector can be so long
+    const engine::JointCounter::Question question{huge, image(1), nullptr};
+    QSignalSpy answered(&counter, &engine::JointCounter::answered);
+    for (int times = 1; times <= 2; ++times) {
+      counter.ask(question);
+      QTRY_COMPARE(answered.size(), times);
+      QVERIFY(!counter.answer());
+      QVERIFY(!counter.problem().isEmpty());
+    }
   }
 };
 

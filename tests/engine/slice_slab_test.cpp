@@ -19,7 +19,9 @@ class SliceSlabTest : public QObject {
   void a_disc_is_round_and_in_one_slice();
   void discs_are_round_in_mm_where_voxels_are_not();
   void a_plane_between_two_slices_belongs_to_the_one_that_is_seen();
+  void a_place_is_near_the_slice_up_to_half_a_voxel();
   void a_tilted_grid_has_one_layer();
+  void a_tilted_slice_has_all_that_is_near_it();
   void the_voxel_under_the_mouse_is_always_painted();
   void a_polygon_takes_what_it_surrounds();
   void beside_the_volume_there_is_nothing();
@@ -78,6 +80,15 @@ void SliceSlabTest::a_plane_between_two_slices_belongs_to_the_one_that_is_seen()
   }
 }
 
+void SliceSlabTest::a_place_is_near_the_slice_up_to_half_a_voxel() {
+  const Geometry g = grid({10, 10, 10}, {1.0, 1.0, 3.0});
+  for (const double sign : {1.0, -1.0}) {
+    const SliceSlab slab(g, g.to_patient({5.0, 5.0, 4.0}), {0.0, 0.0, sign});
+    for (const double k : {3.5, 3.6, 4.0, 4.5}) QVERIFY(slab.is_near(g.to_patient({0.0, 9.0, k})));
+    for (const double k : {3.49, 4.51, 5.0}) QVERIFY(!slab.is_near(g.to_patient({5.0, 5.0, k})));
+  }
+}
+
 void SliceSlabTest::a_tilted_grid_has_one_layer() {
   Geometry g = grid({30, 30, 30}, {1.0, 1.0, 2.0});
   const double angle = 0.3;
@@ -95,6 +106,34 @@ void SliceSlabTest::a_tilted_grid_has_one_layer() {
   }
   QVERIFY(slab.meets({0, 0, 0}, {30, 30, 30}));
   QVERIFY(!slab.meets({0, 0, 24}, {8, 8, 6}));
+}
+
+// Where voxels are longest across the normal, a column has many voxels near the plane.
+void SliceSlabTest::a_tilted_slice_has_all_that_is_near_it() {
+  const Geometry g = grid({40, 20, 30}, {0.5, 0.7, 6.0});
+  const glm::dvec3 centre = g.to_patient({20.0, 10.0, 15.0});
+  for (const glm::dvec3 direction :
+       {glm::dvec3(0.8, 0.1, 0.6), {0.8, 0.1, -0.6}, {0.2, 0.8, 0.7}, {0.0, 0.0, 1.0}}) {
+    const glm::dvec3 normal = glm::normalize(direction);
+    const SliceSlab slab(g, centre, normal);
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.3, 1.0, 0.2), normal));
+    const glm::dvec3 up = glm::cross(normal, right);
+    for (const double radius : {2.03, 7.31, 40.1}) {
+      std::vector<std::int64_t> expected;
+      for (std::int64_t n = 0; n < g.voxel_count(); ++n) {
+        const Index3 voxel = g.voxel_at(n);
+        const glm::dvec3 way = g.to_patient(glm::dvec3(voxel)) - centre;
+        const bool within = std::hypot(glm::dot(way, right), glm::dot(way, up)) <= radius;
+        if (within && slab.contains(voxel)) expected.push_back(n);
+      }
+      QVERIFY(expected.size() > 5 && slab.disc(centre, radius) == expected);
+    }
+    // Around the whole grid.
+    std::vector<glm::dvec3> square;
+    for (const auto& [x, y] : {std::pair(-1.0, -1.0), {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+      square.push_back(centre + 900.0 * (x * right + y * up));
+    QVERIFY(slab.inside(square) == slab.disc(centre, 900.0));
+  }
 }
 
 void SliceSlabTest::the_voxel_under_the_mouse_is_always_painted() {
