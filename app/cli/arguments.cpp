@@ -1,8 +1,8 @@
 #include "app/cli/arguments.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+
+#include "core/number_from.h"
 
 namespace tidemark::cli {
 namespace {
@@ -14,30 +14,18 @@ void take(const std::string& name, Result<Parsed> parsed, Store store) {
   store(std::move(*parsed));
 }
 
-template <class Number>
-bool read_whole(std::string_view text, Number& number) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const char* end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && stopped == end;
-}
-
 }  // namespace
 
 Result<double> parse_number(std::string_view text) {
-  double number = 0.0;
-  if (!read_whole(text, number) || !std::isfinite(number)) {
-    return fail(ErrorKind::usage, "'{}' is not a finite number", text);
-  }
-  return number;
+  const auto number = number_from<double>(text);
+  if (!number) return fail(ErrorKind::usage, "'{}' is not a finite number", text);
+  return *number;
 }
 
 Result<std::int64_t> parse_count(std::string_view text) {
-  std::int64_t number = 0;
-  if (!read_whole(text, number) || number < 0) {
-    return fail(ErrorKind::usage, "'{}' is not a whole number >= 0", text);
-  }
-  return number;
+  const auto number = number_from<std::int64_t>(text);
+  if (!number || *number < 0) return fail(ErrorKind::usage, "'{}' is not a whole number >= 0", text);
+  return *number;
 }
 
 Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t count) {

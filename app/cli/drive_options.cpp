@@ -4,11 +4,8 @@
 #include <cmath>
 
 #include "app/cli/arguments.h"
-#include "app/cli/image_files.h"
-#include "document/speed_map.h"
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
-#include "imaging/results/results.h"
 #include "solver/distance_transform.h"
 #include "solver/speed/speed_registry.h"
 
@@ -120,21 +117,21 @@ Result<std::shared_ptr<const solver::Strokes>> read_examples(const std::string& 
 }
 
 Status add_mask(solver::Constraints& constraints, const std::optional<std::string>& file,
-                solver::Constraint what, const Geometry& grid, Console& console) {
+                solver::Constraint what, const StudyPlace& study, Console& console) {
   if (!file) return {};
-  const auto mask = imaging::load_any_mask(*file, &grid, console.progress());
+  const auto mask = read_mask(*file, study, console);
   if (!mask) return pass_on(mask);
-  for (const std::string& change : mask->changes) console.warn(*file + ": " + change);
-  constraints.set(mask->mask, what);
+  constraints.set(*mask, what);
   return {};
 }
 
 Result<std::shared_ptr<const solver::Constraints>> read_constraints(const DriveOptions& options,
-                                                                    const Geometry& grid, Console& console) {
+                                                                    const StudyPlace& study,
+                                                                    Console& console) {
   if (!options.walls && !options.anchors) return nullptr;
-  auto constraints = std::make_shared<solver::Constraints>(grid.size);
-  TIDEMARK_TRY(add_mask(*constraints, options.anchors, solver::Constraint::anchor, grid, console));
-  TIDEMARK_TRY(add_mask(*constraints, options.walls, solver::Constraint::wall, grid, console));
+  auto constraints = std::make_shared<solver::Constraints>(study.grid.size);
+  TIDEMARK_TRY(add_mask(*constraints, options.anchors, solver::Constraint::anchor, study, console));
+  TIDEMARK_TRY(add_mask(*constraints, options.walls, solver::Constraint::wall, study, console));
   return constraints;
 }
 
@@ -243,8 +240,8 @@ std::vector<std::string> inputs_of(const DriveOptions& options) {
   return inputs;
 }
 
-Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options, const Geometry& grid,
-                                                          Console& console) {
+Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options,
+                                                          const StudyPlace& study, Console& console) {
   document::Drive drive;
   auto setting = setting_of(options);
   if (!setting) return pass_on(setting);
@@ -252,21 +249,21 @@ Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& op
   for (const std::string& file : options.images) {
     auto image = read_image(file, console);
     if (!image) return pass_on(image);
-    auto there = placed(*image, file, grid);
+    auto there = placed(*image, file, study, console);
     if (!there) return pass_on(there);
     drive.images.push_back(std::move(*there));
   }
   if (options.map) {
-    auto map = document::load_speed_map(*options.map, grid, console.progress());
+    auto map = read_speed_map(*options.map, study, console);
     if (!map) return pass_on(map);
     drive.map = std::move(*map);
   }
   if (options.examples) {
-    auto strokes = read_examples(*options.examples, grid, console);
+    auto strokes = read_examples(*options.examples, study.grid, console);
     if (!strokes) return pass_on(strokes);
     drive.strokes = std::move(*strokes);
   }
-  auto constraints = read_constraints(options, grid, console);
+  auto constraints = read_constraints(options, study, console);
   if (!constraints) return pass_on(constraints);
   drive.constraints = std::move(*constraints);
   if (is_plain(drive)) return nullptr;

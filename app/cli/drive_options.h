@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/console.h"
+#include "app/cli/image_files.h"
 #include "document/drive.h"
 #include "document/start.h"
 
@@ -42,7 +43,7 @@ Status check_tent(const DriveOptions& options, bool has_target, bool has_range);
 
 // The drive with its files read; null: nothing but the tent. Fails (ErrorKind::input, ErrorKind::usage)
 // naming the file.
-Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options, const Geometry& grid,
-                                                          Console& console);
+Result<std::shared_ptr<const document::Drive>> make_drive(const DriveOptions& options,
+                                                          const StudyPlace& study, Console& console);
 
 }  // namespace tidemark::cli

@@ -176,7 +176,7 @@ Status run(Program& program, const FilmOptions& options) {
   if (every > 0) {
     for (const std::string& difference : document::differences(recipe, *scene->source))
       console.warn(difference);
-    TIDEMARK_TRY(give_images(recipe, options.render.drive, scene->source->geometry, console));
+    TIDEMARK_TRY(give_images(recipe, options.render.drive, scene->study, console));
     if (goes_by_surface(options.render)) {
       auto end = document::evolve(recipe, scene->source, on_host(), console.progress());
       if (!end) return pass_on(end);

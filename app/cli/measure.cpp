@@ -1,5 +1,6 @@
 // tidemark-cli measure: the sizes, forms and values of the regions of a segmentation.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -27,6 +28,7 @@ constexpr CommandHelp kMeasure{
     "diameter, the longest one in an axial slice with the longest at right angles to it (RECIST's two), the\n"
     "reach along the main axes, and mean, deviation, range and percentiles of the study's values; of PET in\n"
     "standardised uptake values the peak (a ball of 1 ml) and the total lesion glycolysis, too.\n"
+    "An image that ends within a region is measured in the part that it covers, with a warning.\n"
     "Diameters end at the middles of voxel faces; places are mm in the patient (LPS).\n"
     "SEGMENTATION is a volume (every voxel that is not 0 is inside; with --labels each number is a label), "
     "a\n"
@@ -159,7 +161,7 @@ std::string csv_of(const std::vector<MeasuredRow>& rows) {
                                   "reach1_mm", "reach2_mm",  "reach3_mm",  "mean",        "sd",
                                   "smallest",  "largest"};
   for (const double percent : imaging::kPercentiles) header.push_back(fmt::format("p{}", percent));
-  header.insert(header.end(), {"peak_1ml", "total_glycolysis"});
+  header.insert(header.end(), {"peak_1ml", "total_glycolysis", "covered"});
   std::string csv = csv_line(header);
   const auto number = [](double value) { return fmt::format("{:.10g}", value); };
   for (const MeasuredRow& row : rows) {
@@ -177,34 +179,47 @@ std::string csv_of(const std::vector<MeasuredRow>& rows) {
       for (const double value : inside.percentiles) cells.push_back(number(value));
       cells.push_back(inside.uptake ? number(inside.uptake->peak) : "");
       cells.push_back(inside.uptake ? number(inside.uptake->total_glycolysis) : "");
+      cells.push_back(number(image.covered));
       csv += csv_line(cells);
     }
   }
   return csv;
 }
 
-void warn_of_frame(const std::string& file, const std::vector<std::string>& named,
-                   const imaging::Series& study, Console& console) {
-  if (const auto remark = imaging::frame_remark(named, study.frame_of_reference_uid))
-    console.warn(file + ": " + *remark);
-}
-
 // The study's own values first.
 Result<std::vector<document::MeasuredImage>> images_on(const Geometry& grid, imaging::LoadedSeries study,
                                                        const MeasureOptions& options, Console& console) {
+  const StudyPlace place = place_of(study);
   std::vector<document::MeasuredImage> images;
   images.push_back({options.study.path, std::make_shared<const Volume>(std::move(study.volume))});
   for (const std::string& file : options.images) {
     const auto image = read_image(file, console);
     if (!image) return pass_on(image);
-    const auto on_case = placed(*image, file, grid);
+    const auto on_case = placed(*image, file, place, console);
     if (!on_case) return pass_on(on_case);
-    auto voxels = document::on_grid(**on_case, grid);
-    if (!voxels) return pass_on(voxels);
-    warn_of_frame(file, {image->frame_of_reference_uid}, study.series, console);
-    images.push_back({file, std::move(*voxels)});
+    auto measured = document::measured_image(file, **on_case, grid);
+    if (!measured) return pass_on(measured);
+    images.push_back(std::move(*measured));
   }
   return images;
+}
+
+std::string name_of(const std::string& label) {
+  return label.empty() ? "the mask" : label;
+}
+
+// The images do not have all of the region.
+void warn_of_parts(const MeasuredRow& row, const std::vector<document::MeasuredImage>& images,
+                   Console& console) {
+  for (const document::MeasuredImage& image : images) {
+    const auto& all = row.measures.images;
+    const auto found = std::find_if(
+        all.begin(), all.end(), [&](const document::ImageValues& one) { return one.image == image.name; });
+    const double covered = found == all.end() ? 0.0 : found->covered;
+    if (covered < 1.0)
+      console.warn(fmt::format("{}: covers {:.1f} % of {}", image.name, std::floor(1000.0 * covered) / 10.0,
+                               name_of(row.label)));
+  }
 }
 
 Result<std::vector<MeasuredRow>> measure_all(const document::FileRegions& regions, const Geometry& grid,
@@ -214,12 +229,13 @@ Result<std::vector<MeasuredRow>> measure_all(const document::FileRegions& region
   for (std::size_t index = 0; index < regions.list.size(); ++index) {
     const auto& [label, region] = regions.list[index];
     if (region.empty()) {
-      console.warn(fmt::format("{}: {} is empty", regions.file.string(), label.empty() ? "the mask" : label));
+      console.warn(fmt::format("{}: {} is empty", regions.file.string(), name_of(label)));
       continue;
     }
     auto measures = document::measure(region, grid, images, nullptr, console.progress());
     if (!measures) return pass_on(measures);
     rows.push_back({index, label, std::move(*measures)});
+    warn_of_parts(rows.back(), images, console);
   }
   return rows;
 }
@@ -308,7 +324,7 @@ Status run(Program& program, const MeasureOptions& options) {
   const auto regions = document::read_regions(options.file, options.labels, grid, console.progress());
   if (!regions) return pass_on(regions);
   for (const std::string& change : regions->changes) console.warn(options.file + ": " + change);
-  warn_of_frame(options.file, regions->frames_of_reference, study->series, console);
+  warn_of_frame(options.file, regions->frames_of_reference, place_of(*study), console);
   const auto images = images_on(*grid, std::move(*study), options, console);
   if (!images) return pass_on(images);
   const auto rows = measure_all(*regions, *grid, *images, console);

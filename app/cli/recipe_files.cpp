@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "app/cli/image_files.h"
-#include "document/speed_map.h"
+#include "solver/speed/speed_registry.h"
 
 namespace tidemark::cli {
 namespace {
@@ -11,8 +10,8 @@ namespace {
 // The images and the map of the command line for the drives of a recipe: each file is read once.
 class GivenFiles {
  public:
-  GivenFiles(const DriveOptions& options, const Geometry& grid, Console& console)
-      : options_(options), grid_(grid), console_(console) {}
+  GivenFiles(const DriveOptions& options, const StudyPlace& study, Console& console)
+      : options_(options), study_(study), console_(console) {}
 
   // Null stays null.
   Status give(std::shared_ptr<const document::Drive>& drive);
@@ -27,7 +26,7 @@ class GivenFiles {
   Result<std::shared_ptr<const document::SpeedMap>> map_for(const document::SpeedMap& wanted);
 
   const DriveOptions& options_;
-  const Geometry& grid_;
+  const StudyPlace& study_;
   Console& console_;
   std::vector<document::CaseImage> images_;  // of the command line, in its order
   std::vector<std::shared_ptr<const document::CaseImage>> placed_;
@@ -68,7 +67,8 @@ Result<std::shared_ptr<const document::CaseImage>> GivenFiles::image_for(const d
   document::CaseImage image = wanted;
   image.checksum = read.checksum;
   image.volume = read.volume;
-  auto found = placed(image, options_.images[*file], grid_);
+  image.frame_of_reference_uid = read.frame_of_reference_uid;
+  auto found = placed(image, options_.images[*file], study_, console_);
   if (found) placed_.push_back(*found);
   return found;
 }
@@ -78,7 +78,7 @@ Result<std::shared_ptr<const document::SpeedMap>> GivenFiles::map_for(const docu
     return fail(ErrorKind::usage, "the recipe needs the map \"{}\": give it with --speed-image", wanted.name);
   }
   if (map_ == nullptr) {
-    auto map = document::load_speed_map(*options_.map, grid_, console_.progress());
+    auto map = read_speed_map(*options_.map, study_, console_);
     if (!map) return map;
     map_ = std::move(*map);
   }
@@ -86,8 +86,9 @@ Result<std::shared_ptr<const document::SpeedMap>> GivenFiles::map_for(const docu
     return fail(ErrorKind::input, "{}: not the recipe's map \"{}\": its voxels differ", *options_.map,
                 wanted.name);
   }
-  return std::make_shared<const document::SpeedMap>(
-      document::SpeedMap{wanted.name, map_->checksum, map_->volume, map_->path});
+  document::SpeedMap map = *map_;
+  map.name = wanted.name;
+  return std::make_shared<const document::SpeedMap>(std::move(map));
 }
 
 Status GivenFiles::give(std::shared_ptr<const document::Drive>& drive) {
@@ -98,7 +99,8 @@ Status GivenFiles::give(std::shared_ptr<const document::Drive>& drive) {
     if (!image) return pass_on(image);
     given.images[i] = std::move(*image);
   }
-  if (given.map != nullptr) {
+  const bool needs_map = solver::any_has(given.setting, &solver::SpeedKind::needs_map);
+  if (given.map != nullptr && (needs_map || options_.map)) {
     auto map = map_for(*given.map);
     if (!map) return pass_on(map);
     given.map = std::move(*map);
@@ -122,9 +124,9 @@ Status GivenFiles::all_needed() {
 
 }  // namespace
 
-Status give_images(document::Recipe& recipe, const DriveOptions& options, const Geometry& grid,
+Status give_images(document::Recipe& recipe, const DriveOptions& options, const StudyPlace& study,
                    Console& console) {
-  GivenFiles files(options, grid, console);
+  GivenFiles files(options, study, console);
   TIDEMARK_TRY(files.give(recipe.drive));
   for (document::RecipeEvent& event : recipe.events) {
     if (auto* change = std::get_if<document::DriveEvent>(&event.what)) {

@@ -72,13 +72,15 @@ Status run_replay(Program& program, const ReplayArguments& arguments) {
   TIDEMARK_TRY(writer.spare(arguments.study, inputs_of(arguments), recipe->source.policy));
   auto study = load_study(arguments.study, console.progress(), recipe->source.policy);
   if (!study) return pass_on(study);
+  const StudyPlace place = place_of(*study);
   auto volume = std::make_shared<const Volume>(std::move(study->volume));
   for (const std::string& difference : document::differences(*recipe, *volume)) console.warn(difference);
-  TIDEMARK_TRY(give_images(*recipe, arguments.images, volume->geometry, console));
+  TIDEMARK_TRY(give_images(*recipe, arguments.images, place, console));
   console.say("Recipe     {}; {} edits, {} steps", recipe->start.describe(), recipe->events.size(),
               recipe->steps);
 
   const document::EvolutionOptions options{arguments.solver.kind, arguments.solver.executor_options()};
+  if (options.executor) recipe->set_executor(recipe->executor);
   auto evolution = document::evolve(*recipe, volume, options, console.progress());
   if (!evolution) {
     // What the environment asks for is no fault of the recipe's.

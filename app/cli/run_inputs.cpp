@@ -32,6 +32,7 @@ class Inputs {
   bool wants_checksum_;
   Console& console_;
   RunResults& results_;
+  StudyPlace study_;
   std::optional<Mask> truth_;
 };
 
@@ -48,6 +49,7 @@ Status Inputs::load() {
   if (!study) return pass_on(study);
   results_.dicom_files = imaging::dicom_files_of(study->series);
   results_.archive = study->series.archive;
+  study_ = place_of(*study);
   Result<Volume> volume = std::move(study->volume);
   TIDEMARK_TRY(check_inside(options_.start, volume->geometry));
   RunFigures& figures = results_.figures;
@@ -128,11 +130,11 @@ Status Inputs::suggest() {
 // All that the run does.
 Status Inputs::make_recipe() {
   document::Recipe& recipe = results_.recipe;
-  const Geometry& grid = results_.source->geometry;
   recipe.parameters = options_.parameters();
   recipe.steps = options_.step_limit();
-  const double band = recipe.parameters.band.value_or(solver::default_band(grid));
-  auto start = make_start(options_.start, grid, static_cast<float>(band), console_);  // as executors round it
+  const double band = recipe.parameters.band.value_or(solver::default_band(study_.grid));
+  // The band as executors round it.
+  auto start = make_start(options_.start, study_, static_cast<float>(band), console_);
   if (!start) return pass_on(start);
   recipe.start = std::move(*start);
   if (options_.drive.within_mm) {
@@ -141,7 +143,7 @@ Status Inputs::make_recipe() {
     if (!refined) return pass_on(refined);
     recipe.start.from = std::move(*refined);
   }
-  auto drive = make_drive(options_.drive, grid, console_);
+  auto drive = make_drive(options_.drive, study_, console_);
   if (!drive) return pass_on(drive);
   recipe.drive = std::move(*drive);
   return {};

@@ -9,7 +9,6 @@
 #include "app/cli/renderer_option.h"
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
-#include "imaging/results/results.h"
 #include "renderer/sheet.h"
 #include "solver/distance_transform.h"
 #include "solver/model.h"
@@ -18,27 +17,26 @@ namespace tidemark::cli {
 namespace {
 
 // phi of the mask or the saved phi; outside everywhere without either.
-Result<solver::Field> surface_of(const RenderOptions& options, const Volume& source, Console& console) {
-  const double band = solver::default_band(source.geometry);
+Result<solver::Field> surface_of(const RenderOptions& options, const StudyPlace& study, Console& console) {
+  const double band = solver::default_band(study.grid);
   if (!options.mask.empty()) {
-    const auto loaded = imaging::load_any_mask(options.mask, &source.geometry, console.progress());
-    if (!loaded) return pass_on(loaded);
-    for (const std::string& change : loaded->changes) console.warn(options.mask + ": " + change);
-    return solver::distance_transform(loaded->mask, band);
+    const auto mask = read_mask(options.mask, study, console);
+    if (!mask) return pass_on(mask);
+    return solver::distance_transform(*mask, band);
   }
   if (!options.phi.empty()) {
     const auto phi = imaging::load_volume(options.phi, {}, console.progress());
     if (!phi) return pass_on(phi);
-    auto values = imaging::onto_grid(*phi, source.geometry, options.phi);
+    auto values = imaging::onto_grid(*phi, study.grid, options.phi);
     if (!values) return pass_on(values);
     const auto [low, high] = phi->range();
     if (low > 0.0F || high <= 0.0F)
       return fail(ErrorKind::input, "{}: phi has one sign: there is no surface", options.phi);
     // Distances beyond the band add nothing to a picture, and would make pages of the whole volume.
-    return solver::Field::from_dense(source.geometry, *values,
+    return solver::Field::from_dense(study.grid, *values,
                                      std::min(band, static_cast<double>(std::max(-low, high))));
   }
-  return solver::Field::empty(source.geometry, band);
+  return solver::Field::empty(study.grid, band);
 }
 WindowLevel window_of(const RenderOptions& options, const Volume& source) {
   if (options.window) return {(*options.window)[0], (*options.window)[1]};
@@ -71,19 +69,18 @@ double volume_aspect(const RenderOptions& options, renderer::PictureSize size) {
 }
 
 // What drives the surface, for views of the speed, and what holds it, for slices.
-Status show_drive(renderer::Renderer& renderer, const DriveOptions& options,
-                  const std::shared_ptr<const Volume>& source, const solver::Parameters& parameters,
-                  const solver::Field& phi, Console& console) {
-  const auto drive = make_drive(options, source->geometry, console);
+Status show_drive(const Scene& scene, const DriveOptions& options, const solver::Field& phi,
+                  Console& console) {
+  const auto drive = make_drive(options, scene.study, console);
   if (!drive) return pass_on(drive);
   if (*drive == nullptr) return {};
-  auto speed = document::make_speed(**drive, source, parameters, console.progress());
+  auto speed = document::make_speed(**drive, scene.source, scene.views.parameters, console.progress());
   if (!speed) return pass_on(speed);
   if (*speed != nullptr && (*speed)->follows_surface()) {
     if (auto following = (*speed)->following(phi)) *speed = std::move(following);
   }
-  renderer.set_speed(std::move(*speed));
-  return renderer.set_constraints((*drive)->constraints.get());
+  scene.renderer->set_speed(std::move(*speed));
+  return scene.renderer->set_constraints((*drive)->constraints.get());
 }
 
 }  // namespace
@@ -114,8 +111,10 @@ Result<Scene> make_scene(const RenderOptions& options, Views views, Console& con
   if (!chosen) return pass_on(chosen);
   auto loaded = load_study(options.study, console.progress(), otherwise);
   if (!loaded) return pass_on(loaded);
-  Scene scene{std::make_shared<const Volume>(std::move(loaded->volume)), std::move(views), nullptr};
-  auto surface = surface_of(options, *scene.source, console);
+  StudyPlace study = place_of(*loaded);
+  Scene scene{std::make_shared<const Volume>(std::move(loaded->volume)), std::move(views), nullptr,
+              std::move(study)};
+  auto surface = surface_of(options, scene.study, console);
   if (!surface) return pass_on(surface);
   const auto phi = std::make_shared<const solver::Field>(std::move(*surface));
   if (console.interrupted()) return cancelled_error();
@@ -124,9 +123,8 @@ Result<Scene> make_scene(const RenderOptions& options, Views views, Console& con
   if (!renderer) return pass_on(renderer);
   scene.renderer = std::move(*renderer);
   TIDEMARK_TRY(scene.renderer->set_phi(phi, {}));
-  const solver::Parameters& parameters = scene.views.parameters;
-  scene.renderer->set_parameters(parameters);
-  TIDEMARK_TRY(show_drive(*scene.renderer, shown_drive(options), scene.source, parameters, *phi, console));
+  scene.renderer->set_parameters(scene.views.parameters);
+  TIDEMARK_TRY(show_drive(scene, shown_drive(options), *phi, console));
   if (!options.labels.empty()) {
     const auto labels = load_labels(options.labels, scene.source->geometry, console);
     if (!labels) return pass_on(labels);

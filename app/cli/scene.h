@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/cli/console.h"
+#include "app/cli/image_files.h"
 #include "app/cli/render_options.h"
 #include "core/volume.h"
 #include "imaging/grid_policy.h"
@@ -15,6 +16,7 @@ struct Scene {
   std::shared_ptr<const Volume> source;
   Views views;
   std::unique_ptr<renderer::Renderer> renderer;
+  StudyPlace study;
 };
 
 // Loads the study, its surface and its labels, and makes the renderer. Fails as these do, and with

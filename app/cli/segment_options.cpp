@@ -1,9 +1,10 @@
 #include "app/cli/segment_options.h"
 
+#include "document/file_limits.h"
+#include "imaging/filters/filters.h"
+
 namespace tidemark::cli {
 namespace {
-
-constexpr std::int64_t kMostSteps = 1'000'000'000;
 
 void add_equation_options(CLI::App& app, SegmentOptions& options) {
   const char* const kGroup = "Equation";
@@ -73,10 +74,15 @@ Status check_numbers(const SegmentOptions& options) {
   if (options.smooth_mm && *options.smooth_mm <= 0.0) {
     return fail(ErrorKind::usage, "--smooth {}: must be greater than 0 mm", *options.smooth_mm);
   }
+  if (options.smooth_mm && *options.smooth_mm > imaging::kMostSmoothing_mm) {
+    return fail(ErrorKind::usage, "--smooth {}: must be at most {} mm", *options.smooth_mm,
+                imaging::kMostSmoothing_mm);
+  }
   if (options.steps && (options.converge || options.max_steps)) {
     return fail(ErrorKind::usage, "--steps excludes --converge and --max-steps");
   }
-  if (options.step_limit() > kMostSteps) return fail(ErrorKind::usage, "more than {} steps", kMostSteps);
+  if (options.step_limit() > document::kMostSteps)
+    return fail(ErrorKind::usage, "more than {} steps", document::kMostSteps);
   if (options.max_steps && *options.max_steps < 1)
     return fail(ErrorKind::usage, "--max-steps: must be at least 1");
   if (options.truth_label && !options.truth) return fail(ErrorKind::usage, "--truth-label needs --truth");

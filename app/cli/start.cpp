@@ -5,7 +5,6 @@
 
 #include "imaging/load_study.h"
 #include "imaging/onto_grid.h"
-#include "imaging/results/results.h"
 #include "solver/coarse_grid.h"
 
 namespace tidemark::cli {
@@ -15,14 +14,6 @@ constexpr const char* kStartGroup = "Start (at least one)";
 
 Index3 flood_seed(const std::vector<double>& flood) {
   return {std::llround(flood[0]), std::llround(flood[1]), std::llround(flood[2])};
-}
-
-Result<document::MaskStart> read_mask(const std::string& file, const Geometry& grid, Console& console) {
-  auto loaded = imaging::load_any_mask(file, &grid, console.progress());
-  if (!loaded) return pass_on(loaded);
-  for (const std::string& change : loaded->changes) console.warn(file + ": " + change);
-  return document::MaskStart{std::make_shared<const Mask>(std::move(loaded->mask)),
-                             std::filesystem::path(file).filename().string()};
 }
 
 Result<document::FieldStart> read_phi(const std::string& file, const Geometry& grid, double band,
@@ -135,8 +126,9 @@ Status check_inside(const StartOptions& options, const Geometry& geometry) {
   return {};
 }
 
-Result<document::Start> make_start(const StartOptions& options, const Geometry& grid, double band,
+Result<document::Start> make_start(const StartOptions& options, const StudyPlace& study, double band,
                                    Console& console) {
+  const Geometry& grid = study.grid;
   document::Start start;
   if (options.threshold)
     start.from = document::ThresholdStart{(*options.threshold)[0], (*options.threshold)[1]};
@@ -145,9 +137,10 @@ Result<document::Start> make_start(const StartOptions& options, const Geometry& 
   }
   if (options.speed) start.from = document::SpeedStart{};
   if (options.mask) {
-    auto mask = read_mask(*options.mask, grid, console);
+    auto mask = read_mask(*options.mask, study, console);
     if (!mask) return pass_on(mask);
-    start.from = std::move(*mask);
+    start.from = document::MaskStart{std::make_shared<const Mask>(std::move(*mask)),
+                                     std::filesystem::path(*options.mask).filename().string()};
   }
   if (options.phi) {
     auto phi = read_phi(*options.phi, grid, band, console);

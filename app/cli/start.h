@@ -9,6 +9,7 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/console.h"
+#include "app/cli/image_files.h"
 #include "core/volume.h"
 #include "document/start.h"
 
@@ -42,9 +43,9 @@ Status check(const StartOptions& options);
 // The check on the volume's grid: every centre lies inside it. Fails with ErrorKind::usage.
 Status check_inside(const StartOptions& options, const Geometry& geometry);
 
-// The start with its files read. `grid` and `band` are those of the level set. Fails with ErrorKind::input
-// when a file cannot be read or lies on another grid.
-Result<document::Start> make_start(const StartOptions& options, const Geometry& grid, double band,
+// The start with its files read, on the grid of the study. `band` is that of the level set. Fails with
+// ErrorKind::input when a file cannot be read or lies on another grid.
+Result<document::Start> make_start(const StartOptions& options, const StudyPlace& study, double band,
                                    Console& console);
 
 }  // namespace tidemark::cli

@@ -173,6 +173,7 @@ void CliCohortPlanTest::impossible_options_are_refused_before_the_search_data() 
   row({"--steps", "10", "--max-steps", "20"}, "--steps, --max-steps: only one of them");
   row({"--steps", "2000000000"}, "--steps: must be at most");
   row({"--smooth=-1"}, "--smooth: must not be below 0");
+  row({"--smooth", "1001"}, "--smooth: must be at most 1000");
   row({"--within", "0"}, "--within: must be greater than 0");
   row({"--init-threshold", "200,100"}, "--init-threshold: the lower limit is above the upper limit");
 }

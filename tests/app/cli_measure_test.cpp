@@ -120,6 +120,30 @@ class CliMeasureTest : public QObject {
     QVERIFY2(said.out.contains("Segment 8") && said.out.contains("other"), said.told());
   }
 
+  void an_image_is_measured_where_it_is() {
+    const QString study = write("study", ramp(grid_));
+    Geometry half = grid_;
+    half.size.z = 10;
+    const QString other = write("other", ramp(half));
+    const QString labels =
+        write("labels", map_of(grid_, {{{10, 5, 8}, {21, 9, 12}, 3}, {{10, 5, 14}, {21, 9, 18}, 8}}));
+    const QString table = text(folder_ / "measures.csv");
+    const Outcome told =
+        must_run({"measure", study, labels, "--labels", "--image", other, "--csv", table, "--json"});
+    const QJsonArray regions = json_of(told.out)["regions"].toArray();
+    const QJsonArray images = regions[0]["images"].toArray();
+    QVERIFY(near(images[0]["covered"], 1.0) && near(images[1]["covered"], 0.5));
+    QVERIFY(near(images[1]["mean"], 15.0) && near(images[1]["smallest"], 10.0));
+    QCOMPARE(regions[1]["images"].toArray().size(), qsizetype{1});
+    for (const char* words :
+         {"other.nii.gz: covers 50.0 % of Segment 3", "other.nii.gz: covers 0.0 % of Segment 8"})
+      QVERIFY2(told.err.contains(words), told.told());
+    const QStringList lines = QString::fromUtf8(bytes_of(folder_ / "measures.csv")).split("\r\n");
+    QCOMPARE(lines.size(), qsizetype{5});
+    QVERIFY2(lines[0].endsWith(",covered") && lines[1].endsWith(",1") && lines[2].endsWith(",0.5"),
+             qPrintable(lines.join(u'\n')));
+  }
+
   void key_images_name_the_image_in_which_a_region_is_largest() {
     must_run({"phantom", "sphere", "--out", text(folder_ / "sphere")});
     const QString series = text(folder_ / "sphere" / "series");

@@ -1,7 +1,10 @@
 // Speed functions, walls and anchors on the command line: what they find, and that a recipe finds it again.
 #include <QJsonArray>
+#include <QJsonDocument>
 #include <cmath>
+#include <fstream>
 
+#include "imaging/dicom/dicom.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/load_study.h"
 #include "tests/app/cli_runner.h"
@@ -24,9 +27,11 @@ class CliSpeedTest : public QObject {
   void a_refined_mask_stays_near_what_it_was();
   void a_word_of_a_function_counts_and_is_kept_as_its_number();
   void a_second_image_counts_and_a_replay_needs_it();
+  void a_replay_needs_no_map_that_no_function_uses();
   void a_recipe_of_a_tent_is_of_version_1();
   void pictures_show_the_function();
   void doubt_is_a_picture_of_its_own();
+  void another_frame_of_reference_is_warned_of();
 
  private:
   [[nodiscard]] QString file(const std::string& name) const { return text(files_ / name); }
@@ -189,6 +194,18 @@ void CliSpeedTest::a_refined_mask_stays_near_what_it_was() {
   expect_same_phi_of_replay("ball.nrrd", {});
 }
 
+void CliSpeedTest::a_replay_needs_no_map_that_no_function_uses() {
+  must_run(segment({"--speed", "edges", "--seed", "15,15,15,4", "--steps", "20", "--out-phi",
+                    file("phi.nrrd"), "--recipe", file("recipe.json")}));
+  QJsonObject recipe = json_of(bytes_of(files_ / "recipe.json"));
+  QJsonObject drive = recipe["drive"].toObject();
+  drive["map"] = QJsonObject{{"name", "map.nii.gz"}, {"sha256", ""}};
+  recipe["drive"] = drive;
+  std::ofstream(files_ / "recipe.json") << QJsonDocument(recipe).toJson().toStdString();
+  expect_same_phi_of_replay("ball.nrrd", {});
+  expect_same_phi_of_replay("ball.nrrd", {"--speed-image", file("map.nii.gz")});
+}
+
 void CliSpeedTest::a_second_image_counts_and_a_replay_needs_it() {
   // Sharper, D would be 1 near the strokes with any image.
   const QStringList results{
@@ -264,6 +281,50 @@ void CliSpeedTest::doubt_is_a_picture_of_its_own() {
   const QStringList other{"--speed-value", "examples.sharpness=6"};
   QCOMPARE(picture(QStringList{"--view", "doubt"} + other), doubt);
   QVERIFY(picture(QStringList{"--view", "doubt", "--speed-value", "examples.trees=11"}) != doubt);
+}
+
+// Two series of one grid, each with a frame of reference of its own.
+void CliSpeedTest::another_frame_of_reference_is_warned_of() {
+  const Volume study = ball(Index3(30), 9.0);
+  for (const char* name : {"ct", "other"})
+    QCOMPARE(failure(imaging::write_dicom_series(study, {}, files_ / name)), QString());
+  Volume labels = study;
+  std::vector<std::int16_t> marks(static_cast<std::size_t>(study.geometry.voxel_count()));
+  for (std::int64_t i = 0; i < 5; ++i) {
+    marks[static_cast<std::size_t>(study.geometry.offset({12 + i, 15, 15}))] = 1;
+    marks[static_cast<std::size_t>(study.geometry.offset({2 + i, 2, 15}))] = 2;
+  }
+  labels.voxels = marks;
+  QCOMPARE(failure(imaging::write_volume_file(labels, files_ / "marks.nii.gz")), QString());
+  const QString ct = file("ct");
+  const QString other = file("other");
+  const QString map = file("of_ct.dcm");
+  const QStringList seed{"--seed", "15,15,15,4"};
+  const QStringList tent{"--target", "1000", "--range", "500"};
+  must_run(QStringList{"segment", ct, "--steps", "5", "--alpha", "0.5", "--out", map} + seed + tent);
+  const auto warns = [](const QStringList& arguments, const QString& of) {
+    const QString warning = of + ": it names another frame of reference than the study";
+    return must_run(arguments).err.contains(warning.toUtf8());
+  };
+  const std::vector<QStringList> uses{tent + QStringList{"--init", map},
+                                      tent + seed + QStringList{"--anchors", map},
+                                      tent + QStringList{"--seed", "3,3,3,2", "--walls", map},
+                                      seed + QStringList{"--speed", "image", "--speed-image", map}};
+  for (const QStringList& use : uses) {
+    QVERIFY2(!warns(QStringList{"segment", ct, "--alpha", "0.5", "--steps", "0"} + use, map),
+             qPrintable(use.join(' ')));
+    QVERIFY2(warns(QStringList{"segment", other, "--alpha", "0.5", "--steps", "0"} + use, map),
+             qPrintable(use.join(' ')));
+  }
+  const QStringList examples{"--alpha",    "0.5",
+                             "--steps",    "0",
+                             "--speed",    "examples",
+                             "--examples", file("marks.nii.gz"),
+                             "--recipe",   file("recipe.json")};
+  QVERIFY(!warns(QStringList{"segment", ct, "--image", ct} + seed + examples, ct));
+  QVERIFY(warns(QStringList{"segment", ct, "--image", other} + seed + examples, other));
+  QVERIFY(warns({"replay", file("recipe.json"), ct, "--image", other}, other));
+  QVERIFY(warns({"render", other, "--mask", map, "--size", "64x64", "--out", file("mask.png")}, map));
 }
 
 TIDEMARK_TEST(CliSpeedTest)

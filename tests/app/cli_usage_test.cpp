@@ -130,6 +130,7 @@ void CliUsageTest::wrong_usage_ends_with_2_and_one_line_data() {
   QTest::newRow("two inits") << segment + QStringList{"--init", volume_, "--init-threshold", "1,2"};
   QTest::newRow("limits reversed") << segment + QStringList{"--init-threshold", "2,1"};
   QTest::newRow("smoothing 0") << seeded + QStringList{"--smooth", "0"};
+  QTest::newRow("smoothing that no recipe can hold") << seeded + QStringList{"--smooth", "1001"};
   QTest::newRow("unknown suffix") << seeded + QStringList{"--out", text(folder_ / "mask.xyz")};
   QTest::newRow("mesh as phi") << seeded + QStringList{"--out-phi", text(folder_ / "phi.stl")};
   QTest::newRow("stats not json") << seeded + QStringList{"--stats", text(folder_ / "stats.txt")};
