@@ -3,10 +3,9 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QRegularExpression>
+#include <QStandardPaths>
 
 #include "core/site_folder.h"
-#include "ui/look/theme.h"
-#include "ui/main/case_window.h"
 
 namespace tidemark::ui {
 namespace {

@@ -112,7 +112,8 @@ void take_setup(engine::CaseProxy& proxy, std::function<void(const CaseSetup&)> 
         // Before the first step a change is a part of the start's setting, except for strokes.
         setup.was_edited = std::any_of(events.begin(), events.end(), [](const auto& event) {
           if (std::holds_alternative<document::PaintEvent>(event.what)) return true;
-          return event.step > 0 && !std::holds_alternative<document::ResumeEvent>(event.what);
+          return event.step > 0 && !std::holds_alternative<document::ResumeEvent>(event.what) &&
+                 !std::holds_alternative<document::ExecutorEvent>(event.what);
         });
         answer(setup);
       },

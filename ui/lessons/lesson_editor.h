@@ -69,7 +69,6 @@ class LessonEditor : public QDialog {
   void connect_trials();
   void show_lesson(const document::Lesson& lesson, const std::filesystem::path& file);
   void show_chosen();
-  void show_form(int index, bool anew);
   void note_edit();
   void check();
   void show_title();

@@ -2,11 +2,13 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QMessageBox>
 #include <utility>
 
+#include "core/atomic_file.h"
+#include "engine/message_text.h"
 #include "ui/settings.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/question.h"
 
 namespace tidemark::ui {
 namespace {
@@ -28,29 +30,22 @@ QString file_name(const std::string& title) {
 
 LessonFile::LessonFile(QWidget& window, std::function<const document::Lesson&()> lesson,
                        std::function<QString()> problem)
-    : QObject(&window), window_(window), lesson_(std::move(lesson)), problem_(std::move(problem)) {
+    : QObject(&window),
+      window_(window),
+      lesson_(std::move(lesson)),
+      problem_(std::move(problem)),
+      writing_(this) {
   connect(&reading_, &engine::LessonJobs::loaded, this, [this](const auto& loaded) {
     emit said({});
     emit opened(*loaded, read_);
   });
-  connect(&writing_, &engine::LessonJobs::written, this, [this] {
-    path_ = written_;
-    saved_edits_ = written_edits_;
-    emit said(tr("Wrote %1").arg(text_of(path_)));
-    emit saved(text_of(path_));
-    if (const auto next = std::exchange(after_saving_, {})) next();
-  });
-  for (engine::LessonJobs* jobs : {&reading_, &writing_}) {
-    connect(jobs, &engine::LessonJobs::failed, this, [this](const QString& message) {
-      after_saving_ = {};
-      emit said(message);
-    });
-  }
+  connect(&reading_, &engine::LessonJobs::failed, this, &LessonFile::said);
 }
 
 void LessonFile::begin(const std::filesystem::path& file) {
+  reading_.cancel();
   path_ = file;
-  saved_edits_ = ++edits_;
+  first_edits_ = saved_edits_ = ++edits_;
 }
 
 void LessonFile::ask_and_open() {
@@ -90,8 +85,8 @@ void LessonFile::save_as() {
     const QString suffix = QStringLiteral(".json");
     if (!file.endsWith(suffix, Qt::CaseInsensitive)) file += suffix;
     if (QFileInfo::exists(file) &&
-        QMessageBox::question(&window_, tr("Save the lesson"), tr("%1 exists. Replace it?").arg(file),
-                              QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes) {
+        ask(&window_, tr("Save the lesson"), tr("%1 exists. Replace it?").arg(file),
+            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes) {
       after_saving_ = {};
       return;
     }
@@ -106,15 +101,35 @@ void LessonFile::write(const std::filesystem::path& file) {
     after_saving_ = {};
     return emit said(tr("Not saved. %1").arg(problem));
   }
-  written_ = file;
-  written_edits_ = edits_;
-  writing_.write(lesson_(), file);
+  writing_.add(
+      [lesson = lesson_(), file](const Progress&) -> Status {
+        const auto text = lesson.to_text();
+        if (!text) return pass_on(text);
+        return write_file(file, *text);
+      },
+      [this, file, edits = edits_, next = std::exchange(after_saving_, {})](const Status& done) {
+        if (!done) return emit said(engine::message_text(done.error()));
+        note_written(file, edits, next);
+      });
+}
+
+// Of a lesson that is edited no more, nothing but the file is left.
+void LessonFile::note_written(const std::filesystem::path& file, std::uint64_t edits,
+                              const std::function<void()>& next) {
+  const bool is_present = edits >= first_edits_;
+  if (is_present) {
+    path_ = file;
+    saved_edits_ = edits;
+  }
+  emit said(tr("Wrote %1").arg(text_of(file)));
+  emit saved(text_of(file));
+  if (is_present && next) next();
 }
 
 void LessonFile::when_kept(std::function<void()> next) {
   if (!is_modified()) return next();
   const QString title = QString::fromStdString(lesson_().title);
-  const auto answer = QMessageBox::question(
+  const auto answer = ask(
       &window_, tr("Lesson"),
       title.isEmpty() ? tr("Save the changes of the lesson?") : tr("Save the changes of “%1”?").arg(title),
       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);

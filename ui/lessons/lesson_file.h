@@ -9,6 +9,7 @@
 
 #include "document/lesson.h"
 #include "engine/lesson_jobs.h"
+#include "engine/work_queue.h"
 
 namespace tidemark::ui {
 
@@ -19,7 +20,8 @@ class LessonFile : public QObject {
   LessonFile(QWidget& window, std::function<const document::Lesson&()> lesson,
              std::function<QString()> problem);
 
-  // Another lesson is edited, which is as in that file; empty: it is in none.
+  // Another lesson is edited, which is as in that file; empty: it is in none. One that is being read comes no
+  // more.
   void begin(const std::filesystem::path& file);
   void note_edit() { ++edits_; }
   [[nodiscard]] bool is_modified() const { return edits_ != saved_edits_; }
@@ -28,6 +30,7 @@ class LessonFile : public QObject {
 
   void ask_and_open();
   void open(const std::filesystem::path& file);
+  // Files are written one after the other: the newest text stays.
   void save();
   void save_as();
   // Calls `next` when nothing would be lost by it: the user is asked where something would.
@@ -40,19 +43,20 @@ class LessonFile : public QObject {
 
  private:
   void write(const std::filesystem::path& file);
+  void note_written(const std::filesystem::path& file, std::uint64_t edits,
+                    const std::function<void()>& next);
 
   QWidget& window_;
   std::function<const document::Lesson&()> lesson_;
   std::function<QString()> problem_;
   engine::LessonJobs reading_;
-  engine::LessonJobs writing_;
+  engine::WorkQueue writing_;
   std::filesystem::path path_;
   std::filesystem::path read_;     // on its way
-  std::filesystem::path written_;  // on its way
-  std::uint64_t edits_ = 0;
+  std::uint64_t edits_ = 0;        // of all lessons
+  std::uint64_t first_edits_ = 0;  // edits_ when the present lesson began
   std::uint64_t saved_edits_ = 0;
-  std::uint64_t written_edits_ = 0;
-  std::function<void()> after_saving_;
+  std::function<void()> after_saving_;  // of a save whose file is still asked for
 };
 
 }  // namespace tidemark::ui

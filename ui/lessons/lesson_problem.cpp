@@ -110,8 +110,7 @@ std::optional<LessonProblem> problem_of(const document::Lesson& lesson, const do
     return LessonProblem{
         problem_text(
             QT_TRANSLATE_NOOP("LessonProblem", "%1, figure %2: the range ends below where it begins"))
-            .arg(part_text(titled, i))
-            .arg(turned - measures.begin() + 1),
+            .arg(part_text(titled, i), QString::number(turned - measures.begin() + 1)),
         i};
   }
   const auto written = lesson.to_text();

@@ -1,13 +1,13 @@
 #include "ui/lessons/part_list.h"
 
 #include <QHBoxLayout>
-#include <QMessageBox>
 #include <QShortcut>
 #include <QSignalBlocker>
 #include <utility>
 
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
+#include "ui/widgets/question.h"
 
 namespace tidemark::ui {
 
@@ -138,9 +138,8 @@ void PartList::remove() {
   const bool holds_words =
       !part.title.empty() || !part.text.empty() || part.question || !part.explanation.empty();
   if (holds_words &&
-      QMessageBox::question(this, tr("Remove the part"),
-                            tr("Remove part %1 with all that it holds?").arg(at + 1),
-                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes) {
+      ask(this, tr("Remove the part"), tr("Remove part %1 with all that it holds?").arg(at + 1),
+          QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes) {
     return;
   }
   lesson_->parts.erase(lesson_->parts.begin() + static_cast<std::ptrdiff_t>(at));

@@ -9,6 +9,7 @@
 #include "ui/settings.h"
 #include "ui/views/mouse_scheme.h"
 #include "ui/views/play.h"
+#include "ui/widgets/menu_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -59,13 +60,14 @@ QAction* Actions::make(const char* name, const char* picture, const QString& tex
 }
 
 void Actions::set_key(QAction* action, const QKeySequence& key) {
-  if (key.isEmpty()) {
-    setting_of(action).forget();
-    action->setShortcut(QKeySequence(action->property(kOwnKey).toString()));
-  } else {
-    setting_of(action).set(key.toString());
-    action->setShortcut(key);
-  }
+  setting_of(action).set(key.toString());
+  action->setShortcut(key);
+  show_key(action);
+}
+
+void Actions::reset_key(QAction* action) {
+  setting_of(action).forget();
+  action->setShortcut(QKeySequence(action->property(kOwnKey).toString()));
   show_key(action);
 }
 
@@ -338,9 +340,9 @@ void Actions::follow_evolution(const engine::CaseState& state) {
   compare_with_label->setEnabled(state.begun && !state.labels.empty());
   step_back->setEnabled(state.begun && state.step > 0);
   undo->setEnabled(!state.undo_text.isEmpty());
-  undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(state.undo_text));
+  undo->setText(state.undo_text.isEmpty() ? tr("&Undo") : tr("&Undo: %1").arg(menu_text(state.undo_text)));
   redo->setEnabled(!state.redo_text.isEmpty());
-  redo->setText(state.redo_text.isEmpty() ? tr("&Redo") : tr("&Redo: %1").arg(state.redo_text));
+  redo->setText(state.redo_text.isEmpty() ? tr("&Redo") : tr("&Redo: %1").arg(menu_text(state.redo_text)));
 }
 
 }  // namespace tidemark::ui

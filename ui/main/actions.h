@@ -101,7 +101,8 @@ class Actions : public QObject {
   [[nodiscard]] const std::vector<QAction*>& all() const { return all_; }
   // Enables and checks the actions by the state of the active case; null: there is none.
   void follow(engine::CaseProxy* proxy);
-  void set_key(QAction* action, const QKeySequence& key);  // an empty one: its own again
+  void set_key(QAction* action, const QKeySequence& key);  // an empty one: none
+  void reset_key(QAction* action);                         // its own again
 
  private:
   QAction* make(const char* name, const char* icon, const QString& text, const QKeySequence& key,

@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "document/segment_meshes.h"
+#include "engine/engine.h"
 #include "engine/message_text.h"
 #include "imaging/files/png_file.h"
 #include "imaging/files/volume_file.h"
@@ -102,7 +103,11 @@ ReportSource report_source(CaseWindow& window) {
 }  // namespace
 
 CaseExports::CaseExports(MainWindow& window, CaseFiles& files)
-    : QObject(&window), window_(window), files_(files) {}
+    : QObject(&window), window_(window), files_(files), receiver_(engine::WeakReceiver::of(this)) {}
+
+CaseExports::~CaseExports() {
+  receiver_->close();
+}
 
 CaseExports::Voxels CaseExports::ask_for_voxels(const CaseWindow& window) {
   QMessageBox box(QMessageBox::Question, tr("Export"), tr("What is to be written?"), QMessageBox::Cancel,
@@ -192,11 +197,21 @@ void CaseExports::export_report(CaseWindow& window) {
 }
 
 void CaseExports::write_report(CaseWindow& window, const QString& file) {
-  files_.write_contents(
-      window, file,
-      [source = report_source(window), path = path_of(file)](const document::SessionContents& contents) {
-        return ui::write_report(source, contents, path);
-      });
+  const auto write = [this, file, alive = QPointer(&window)] {
+    if (!alive) return;
+    files_.write_contents(
+        *alive, file,
+        [source = report_source(*alive), path = path_of(file)](const document::SessionContents& contents) {
+          return ui::write_report(source, contents, path);
+        });
+  };
+  window.proxy().pause();
+  window.proxy().measure([write, alive = QPointer(&window), receiver = receiver_] {
+    if (!alive) return;
+    // Pictures of the surface at which it paused come before.
+    alive->proxy().engine().post(engine::Priority::step, nullptr,
+                                 [write, receiver](const std::stop_token&) { receiver->send(write); });
+  });
 }
 
 void CaseExports::export_recipe(CaseWindow& window) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <QObject>
+#include <memory>
 #include <string>
 
+#include "engine/weak_receiver.h"
 #include "ui/main/case_window.h"
 
 namespace tidemark::ui {
@@ -15,6 +17,7 @@ class CaseExports : public QObject {
   Q_OBJECT
  public:
   CaseExports(MainWindow& window, CaseFiles& files);
+  ~CaseExports() override;
 
   // Ask where to.
   void export_mask(CaseWindow& window);
@@ -31,6 +34,7 @@ class CaseExports : public QObject {
   void write_surface(CaseWindow& window, const QString& file);
   void write_picture(CaseWindow& window, const QString& file);
   void write_statistics(CaseWindow& window, const QString& file);
+  // The case pauses: all of a report is of one moment.
   void write_report(CaseWindow& window, const QString& file);
 
  private:
@@ -39,6 +43,7 @@ class CaseExports : public QObject {
 
   MainWindow& window_;
   CaseFiles& files_;
+  std::shared_ptr<engine::WeakReceiver> receiver_;
 };
 
 }  // namespace tidemark::ui

@@ -12,12 +12,12 @@
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/status_bar.h"
-#include "ui/opening/loading_view.h"
 #include "ui/readers/readers_dialog.h"
 #include "ui/results/deidentify_dialog.h"
 #include "ui/results/send_result_dialog.h"
 #include "ui/results/write_result_dialog.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::ui {
 namespace {
@@ -27,9 +27,7 @@ const char* const kAboutImport = "import of labels";
 }  // namespace
 
 CaseResults::CaseResults(MainWindow& window)
-    : QObject(&window), window_(window), progress_(new LoadingView(LoadingView::Shape::line)) {
-  progress_->hide();
-  window.statusBar()->addPermanentWidget(progress_);
+    : QObject(&window), window_(window), progress_(new StatusProgress(*window.statusBar())) {
   connect_jobs();
   Actions& actions = window.actions();
   const auto with_case = [this](QAction* action, auto act) {
@@ -101,8 +99,7 @@ Dialog* CaseResults::new_dialog(CaseWindow& window, const QString& name, Argumen
 }
 
 void CaseResults::connect_jobs() {
-  connect(&jobs_, &engine::ResultJobs::progressed, progress_, &LoadingView::set_progress);
-  connect(progress_, &LoadingView::cancelled, &jobs_, &engine::ResultJobs::cancel);
+  progress_->follow(jobs_);
   connect(&jobs_, &engine::ResultJobs::labels_read, this, &CaseResults::add);
   connect(&jobs_, &engine::ResultJobs::cancelled, this, [this] { end_reading(); });
   connect(&jobs_, &engine::ResultJobs::failed, this, &CaseResults::end_reading);
@@ -133,8 +130,7 @@ void CaseResults::read(CaseWindow& window, const QString& file, bool only_result
 void CaseResults::read_next() {
   const Reading& next = waiting_.front();
   if (!next.window) return end_reading();
-  progress_->begin(QFileInfo(next.file).fileName());
-  progress_->show();
+  progress_->begin(tr("Reading %1").arg(QFileInfo(next.file).fileName()));
   const engine::CaseProxy& proxy = next.window->proxy();
   jobs_.read_labels(path_of(next.file), proxy.volume().geometry, next.only_results,
                     proxy.study().frame_of_reference_uid);

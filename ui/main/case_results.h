@@ -12,8 +12,8 @@
 
 namespace tidemark::ui {
 
-class LoadingView;
 class MainWindow;
+class StatusProgress;
 
 // Carries out the window's actions about results, on the active case.
 class CaseResults : public QObject {
@@ -47,7 +47,7 @@ class CaseResults : public QObject {
 
   MainWindow& window_;
   engine::ResultJobs jobs_;
-  LoadingView* progress_;
+  StatusProgress* progress_;
   std::deque<Reading> waiting_;  // the first is being read
 };
 

@@ -454,8 +454,13 @@ Status CaseWindow::restore_view(const document::SessionContents& contents) {
   settings.images.clear();
   for (const auto& image : contents.images) settings.images.push_back(engine::shown_image(image));
   // Their looks are saved in that order.
-  auto shown = engine::display_settings(state["display"].toString("{}").toStdString(), settings);
-  if (shown) settings = *shown;
+  const std::string display = state["display"].toString("{}").toStdString();
+  auto shown = engine::display_settings(display, settings);
+  if (shown) {
+    settings = *shown;
+  } else if (auto measured = engine::display_measurements(display, settings)) {
+    settings = std::move(*measured);
+  }
   const auto& drive = contents.wanted_drive ? contents.wanted_drive : contents.recipe.final_drive();
   if (drive && document::uses_images(drive->setting)) engine::use_images(settings.images, drive->images);
   proxy_->set_saved(settings);

@@ -147,10 +147,10 @@ void CohortReview::show(cohort::ReviewList list, const KeptCohort& wanted) {
   if (wanted.open && wanted.open->window && model_->row_of(wanted.open->id) >= 0) take_case(wanted.open);
   follow_case();
   if (list.unreadable.empty()) return;
-  window_.tell(tr("%1. Files that cannot be read: %2.")
-                   .arg(engine::message_text(list.unreadable.front()))
-                   .arg(list.unreadable.size()),
-               kAboutCohort);
+  window_.tell(
+      tr("%1. Files that cannot be read: %2.")
+          .arg(engine::message_text(list.unreadable.front()), QString::number(list.unreadable.size())),
+      kAboutCohort);
 }
 
 // The open case stays open, as any other.
@@ -264,6 +264,7 @@ void CohortReview::open_case(int row) {
       QMessageBox::Question, tr("Cohort"),
       tr("The surface of %1 was changed. Is it the correct one?").arg(QString::fromStdString(open_->id)),
       QMessageBox::Discard | QMessageBox::Cancel, &window_);
+  box.setTextFormat(Qt::PlainText);
   QAbstractButton* accepted = box.addButton(tr("Accept the correction"), QMessageBox::AcceptRole);
   const auto asked = open_;
   box.exec();
@@ -275,9 +276,10 @@ void CohortReview::open_case(int row) {
     return correct();
   }
   if (box.standardButton(box.clickedButton()) != QMessageBox::Discard) return;
-  // Labels of the user's own are not the surface: with them the case stays, as any other.
+  // Labels, images and measurements are not the surface: with those of the user's own the case stays, as any
+  // other.
   CaseWindow& left = *open_window();
-  if (left.proxy().state().labels.empty()) left.close_saved();
+  if (left.proxy().state().labels.empty() && left.proxy().has_saved_attachments()) left.close_saved();
   if (const int wanted = model_->row_of(id); wanted >= 0) load(wanted);
 }
 
@@ -393,8 +395,9 @@ void CohortReview::write_correction(const std::shared_ptr<const engine::CaseProx
       model_->set_status(*status);
       open->seen = *status;
       open->result = snapshot->position;
-      // The cohort keeps all of it, but for labels.
-      if (open->window && snapshot->contents.labels.empty()) open->window->proxy().mark_saved(*snapshot);
+      // The cohort keeps neither labels nor what lies beside the history.
+      if (open->window && snapshot->contents.labels.empty())
+        open->window->proxy().mark_surface_saved(snapshot->position);
     }
     if (written) model_->set_decision(decision);
     end_correction(written);

@@ -9,9 +9,9 @@
 #include "imaging/audit/event.h"
 #include "ui/main/case_files.h"
 #include "ui/main/main_window.h"
-#include "ui/opening/loading_view.h"
 #include "ui/views/picture_view.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::ui {
 namespace {
@@ -28,11 +28,8 @@ renderer::PictureSize size_of_film(QSize view) {
 }  // namespace
 
 FilmWriter::FilmWriter(MainWindow& window, CaseFiles& files)
-    : QObject(&window), window_(window), files_(files), progress_(new LoadingView(LoadingView::Shape::line)) {
-  progress_->hide();
-  window.statusBar()->addPermanentWidget(progress_);
-  connect(&jobs_, &engine::ResultJobs::progressed, progress_, &LoadingView::set_progress);
-  connect(progress_, &LoadingView::cancelled, &jobs_, &engine::ResultJobs::cancel);
+    : QObject(&window), window_(window), files_(files), progress_(new StatusProgress(*window.statusBar())) {
+  progress_->follow(jobs_);
   connect(&jobs_, &engine::ResultJobs::cancelled, this, [this] {
     progress_->hide();
     emit ended();
@@ -71,8 +68,7 @@ void FilmWriter::write(CaseWindow& window, const QString& file) {
                             study = window.proxy().shared_study()](const auto& snapshot) {
         if (!may_begin()) return;
         file_ = file;
-        progress_->begin(QFileInfo(file).fileName());
-        progress_->show();
+        progress_->begin(tr("Writing %1").arg(QFileInfo(file).fileName()));
         jobs_.write([=, path = path_of(file)](const Progress& progress) {
           return imaging::exported(
               engine::write_film(snapshot->contents.recipe, study->volume, wanted, size, path, progress),

@@ -9,8 +9,8 @@
 namespace tidemark::ui {
 
 class CaseFiles;
-class LoadingView;
 class MainWindow;
+class StatusProgress;
 
 // One film at a time: no other one begins before it is written or given up.
 class FilmWriter : public QObject {
@@ -31,7 +31,7 @@ class FilmWriter : public QObject {
   MainWindow& window_;
   CaseFiles& files_;
   engine::ResultJobs jobs_;
-  LoadingView* progress_;
+  StatusProgress* progress_;
   QString file_;  // that is being written
 };
 

@@ -9,28 +9,18 @@
 #include "engine/background_job.h"
 #include "engine/message_text.h"
 #include "imaging/onto_grid.h"
-#include "imaging/resample.h"
+#include "imaging/share_space.h"
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
-#include "ui/opening/loading_view.h"
 #include "ui/opening/study_opener.h"
 #include "ui/settings.h"
 #include "ui/widgets/file_patterns.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::ui {
 namespace {
 
 constexpr const char* kAboutImages = "adding an image";
-
-// Tells quickly whether the image lies anywhere in the study: by places a few mm apart.
-bool overlap(const document::CaseImage& image, const Geometry& study) {
-  constexpr std::int64_t kPlaces = 48;
-  Geometry coarse = study;
-  coarse.size = glm::min(study.size, Index3(kPlaces));
-  coarse.spacing_mm = study.spacing_mm * glm::dvec3(study.size) / glm::dvec3(coarse.size);
-  coarse.origin_mm = study.to_patient((coarse.spacing_mm / study.spacing_mm - 1.0) * 0.5);
-  return imaging::resample(*image.volume, image.to_case, coarse, image.name, {}, 0.0F).has_value();
-}
 
 }  // namespace
 
@@ -51,7 +41,7 @@ class ImageAdder::OfCase : public QObject {
   MainWindow& window_;
   CaseWindow& into_;
   StudyOpener* opener_;
-  QPointer<LoadingView> progress_;                            // the status bar's
+  QPointer<StatusProgress> progress_;                         // the status bar's
   std::vector<std::shared_ptr<engine::BackgroundJob>> jobs_;  // that look at images
 };
 
@@ -60,22 +50,12 @@ ImageAdder::OfCase::OfCase(MainWindow& window, CaseWindow& into)
       window_(window),
       into_(into),
       opener_(new StudyOpener(&into)),
-      progress_(new LoadingView(LoadingView::Shape::line)) {
-  progress_->hide();
-  window.statusBar()->addPermanentWidget(progress_);
+      progress_(new StatusProgress(*window.statusBar())) {
   opener_->set_previews_wanted(false);
-  connect(opener_, &StudyOpener::began, progress_, [this](const QString& what) {
-    progress_->begin(what);
-    progress_->show();
-  });
-  connect(opener_, &StudyOpener::progressed, progress_, &LoadingView::set_progress);
-  connect(opener_, &StudyOpener::ended, progress_, &QWidget::hide);
-  connect(progress_, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
+  opener_->show_in(*progress_);
   connect(opener_, &StudyOpener::opened, this, &OfCase::look_at);
-  connect(opener_, &StudyOpener::failed, this, [this](const QString& message) {
-    progress_->hide();
-    window_.tell(into_, message, kAboutImages);
-  });
+  connect(opener_, &StudyOpener::failed, this,
+          [this](const QString& message) { window_.tell(into_, message, kAboutImages); });
 }
 
 ImageAdder::OfCase::~OfCase() {
@@ -91,7 +71,7 @@ void ImageAdder::OfCase::look_at(const std::shared_ptr<const engine::LoadedStudy
       this,
       [this, loaded, grid = into_.proxy().volume().geometry](engine::BackgroundJob& job) {
         const engine::ShownImage shown = engine::shown_image(*loaded, job.stop());
-        const bool meets = overlap(*shown.image, grid);
+        const bool meets = imaging::share_space(shown.image->volume->geometry, shown.image->to_case, grid);
         job.deliver([this, loaded, shown, meets] { meets ? add(*loaded, shown) : refuse(*loaded); });
       },
       failed));
@@ -109,8 +89,10 @@ void ImageAdder::OfCase::refuse(const engine::LoadedStudy& loaded) {
 
 void ImageAdder::OfCase::add(const engine::LoadedStudy& loaded, const engine::ShownImage& shown) {
   engine::CaseProxy& proxy = into_.proxy();
+  Status added;
   proxy.display().change(
-      [&](engine::DisplaySettings& settings) { engine::add_image(settings.images, shown); });
+      [&](engine::DisplaySettings& settings) { added = engine::add_image(settings.images, shown); });
+  if (!added) return window_.tell(into_, engine::message_text(added.error()), kAboutImages);
   if (&into_ == window_.active_case()) window_.panels().show("display");
   if (engine::is_placed(*shown.image, proxy.study())) return window_.dismiss_about(kAboutImages);
   const bool differs =

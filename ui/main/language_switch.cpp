@@ -10,8 +10,8 @@
 #include "ui/look/language.h"
 #include "ui/main/main_window.h"
 #include "ui/main/teaching.h"
-#include "ui/opening/loading_view.h"
 #include "ui/settings.h"
+#include "ui/widgets/status_progress.h"
 #include "ui/widgets/work_line.h"
 
 namespace tidemark::ui {
@@ -20,10 +20,10 @@ namespace {
 // Something is being read, written or measured, which its line shows, or a dialog waits for its user: this
 // would end with the window.
 bool is_at_work(const MainWindow& window) {
-  const auto loading = window.findChildren<LoadingView*>();
+  const auto progress = window.findChildren<StatusProgress*>();
   const auto work = window.findChildren<WorkLine*>();
   const auto dialogs = window.findChildren<QDialog*>();
-  return std::any_of(loading.begin(), loading.end(), [](const auto* line) { return line->isVisible(); }) ||
+  return std::any_of(progress.begin(), progress.end(), [](const auto* line) { return line->isVisible(); }) ||
          std::any_of(work.begin(), work.end(), [](const auto* line) { return line->working(); }) ||
          std::any_of(dialogs.begin(), dialogs.end(), [](const auto* dialog) { return dialog->isVisible(); });
 }

@@ -45,8 +45,6 @@
 #include "ui/opening/ask_for_study.h"
 #include "ui/opening/dropped_paths.h"
 #include "ui/opening/load_report.h"
-#include "ui/opening/loading_view.h"
-#include "ui/opening/phantom_menu.h"
 #include "ui/opening/preview_page.h"
 #include "ui/opening/recent_studies.h"
 #include "ui/opening/start_page.h"
@@ -57,6 +55,7 @@
 #include "ui/views/picture_surface.h"
 #include "ui/views/picture_view.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::ui {
 MainWindow::MainWindow(engine::Engine& engine, QWidget* parent) : QMainWindow(parent), engine_(engine) {
@@ -134,19 +133,10 @@ void MainWindow::make_centre() {
 // Files.
 
 void MainWindow::connect_files() {
-  LoadingView* loading = &status_bar_->loading();
-  connect(opener_, &StudyOpener::began, loading, [loading](const QString& what) {
-    loading->begin(what);
-    loading->show();
-  });
-  connect(opener_, &StudyOpener::progressed, loading, &LoadingView::set_progress);
-  connect(opener_, &StudyOpener::ended, loading, &QWidget::hide);
-  connect(opener_, &StudyOpener::failed, this, [this, loading](const QString& message) {
-    loading->hide();
-    tell(message, kAboutOpening);
-  });
+  opener_->show_in(*new StatusProgress(*status_bar_));
+  connect(opener_, &StudyOpener::failed, this,
+          [this](const QString& message) { tell(message, kAboutOpening); });
   connect(opener_, &StudyOpener::opened, this, [this](const auto& study) { add_case(study); });
-  connect(loading, &LoadingView::cancelled, opener_, &StudyOpener::cancel);
   connect(recent_, &RecentStudies::chosen, this, &MainWindow::open_recent);
   connect(actions_->open_folder, &QAction::triggered, this, &MainWindow::ask_for_folder);
   connect(actions_->open_file, &QAction::triggered, this, &MainWindow::ask_for_file);

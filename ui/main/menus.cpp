@@ -16,6 +16,7 @@
 #include "ui/main/teaching.h"
 #include "ui/opening/phantom_menu.h"
 #include "ui/opening/recent_studies.h"
+#include "ui/widgets/menu_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -96,8 +97,7 @@ class CaseEntries : public QObject {
       menu_.addAction(line);
     }
     for (CaseWindow* one : cases) {
-      QString title = one->windowTitle().remove(QStringLiteral("[*]"));
-      title.replace(u'&', QStringLiteral("&&"));
+      const QString title = menu_text(one->windowTitle().remove(QStringLiteral("[*]")));
       const QString form = one->number() < 10 ? QStringLiteral("&%1  %2") : QStringLiteral("%1  %2");
       auto* entry = new QAction(case_mark(one->number()), form.arg(QString::number(one->number()), title),
                                 entries_.get());

@@ -1,5 +1,6 @@
 #include "ui/main/message_bar.h"
 
+#include <QAccessible>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -28,15 +29,17 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
   paint_sign();
   text_ = new QLabel;
   text_->setWordWrap(true);
-  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  text_->setTextFormat(Qt::PlainText);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  text_->setFocusPolicy(Qt::StrongFocus);
   offers_ = new QHBoxLayout;
-  auto* button = new QPushButton(tr("Dismiss"));
+  dismiss_ = new QPushButton(tr("Dismiss"));
   row->addWidget(sign_);
   row->addWidget(text_, 1);
   row->addLayout(offers_);
-  row->addWidget(button);
+  row->addWidget(dismiss_);
   whole->addWidget(line_, 1);
-  connect(button, &QPushButton::clicked, this, &MessageBar::dismiss);
+  connect(dismiss_, &QPushButton::clicked, this, &MessageBar::dismiss);
   hide();
 }
 
@@ -58,8 +61,11 @@ void MessageBar::show_text(const QString& text, const QString& about) {
   dismiss();
   about_ = about;
   text_->setText(text);
+  dismiss_->setAccessibleDescription(text);
   line_->show();
   show();
+  QAccessibleEvent alert(text_, QAccessible::Alert);
+  QAccessible::updateAccessibility(&alert);
 }
 
 void MessageBar::show_offers(const QString& text, const QString& about, const std::vector<Offer>& offers) {
@@ -67,6 +73,7 @@ void MessageBar::show_offers(const QString& text, const QString& about, const st
   for (const Offer& offer : offers) {
     auto* button = new QPushButton(offer.button);
     button->setToolTip(offer.tip);
+    button->setAccessibleDescription(text);
     offers_->addWidget(button);
     connect(button, &QPushButton::clicked, this, [this, accepted = offer.accepted] {
       dismiss();
@@ -79,7 +86,8 @@ void MessageBar::mark_as_of(CaseWindow& window) {
   forget_case();
   mark_->setPixmap(case_mark(window.number()).pixmap(QSize(kIconSmall, kIconSmall), devicePixelRatioF()));
   mark_->setAccessibleName(tr("Case %1").arg(window.number()));
-  mark_->setToolTip(tr("About case %1: %2").arg(window.number()).arg(window.proxy().name()));
+  const QString about = tr("About case %1: %2").arg(QString::number(window.number()), window.proxy().name());
+  mark_->setToolTip(QStringLiteral("<p>%1</p>").arg(about.toHtmlEscaped()));
   mark_->show();
   case_closed_ = connect(&window, &QObject::destroyed, this, &MessageBar::dismiss);
 }

@@ -8,6 +8,7 @@
 
 class QHBoxLayout;
 class QLabel;
+class QPushButton;
 class QStackedLayout;
 
 namespace tidemark::ui {
@@ -21,7 +22,8 @@ class MessageBar : public QFrame {
  public:
   explicit MessageBar(QWidget* parent = nullptr);
 
-  // `about`: the subject that failed, for dismiss_about(); empty: the message stays until it is dismissed.
+  // The text is plain, and screen readers say it at once. `about`: the subject that failed, for
+  // dismiss_about(); empty: the message stays until it is dismissed.
   void show_text(const QString& text, const QString& about = {});
   // The same with buttons that do something about it; the message goes then.
   struct Offer {
@@ -51,6 +53,7 @@ class MessageBar : public QFrame {
   QWidget* line_;
   QLabel* sign_;
   QLabel* text_;
+  QPushButton* dismiss_;
   QHBoxLayout* offers_;
   QWidget* shown_ = nullptr;
   QString about_;

@@ -2,8 +2,9 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QMessageBox>
+#include <QStatusBar>
 #include <algorithm>
+#include <utility>
 
 #include "core/without_exceptions.h"
 #include "document/session_file.h"
@@ -18,6 +19,8 @@
 #include "ui/main/teaching.h"
 #include "ui/settings.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/question.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::ui {
 namespace {
@@ -47,7 +50,10 @@ std::optional<document::RescuedLesson> find_lesson() {
 
 }  // namespace
 
-SessionReader::SessionReader(MainWindow& window) : QObject(&window), window_(window) {
+SessionReader::SessionReader(MainWindow& window)
+    : QObject(&window), window_(window), progress_(new StatusProgress(*window.statusBar())) {
+  connect(progress_, &StatusProgress::cancelled, this, &SessionReader::cancel);
+  connect(&loader_, &engine::StudyLoader::progressed, progress_, &StatusProgress::set_progress);
   connect(&loader_, &engine::StudyLoader::loaded, this, &SessionReader::compare);
   connect(&loader_, &engine::StudyLoader::failed, this, [this](const QString& message) {
     end_reading(tr("The study of the session %1 was not found: %2").arg(waiting_.front().file, message));
@@ -55,7 +61,9 @@ SessionReader::SessionReader(MainWindow& window) : QObject(&window), window_(win
 }
 
 SessionReader::~SessionReader() {
-  for (const auto& job : jobs_) job->abandon();
+  for (const auto& job : {reading_, finding_}) {
+    if (job) job->abandon();
+  }
 }
 
 void SessionReader::ask_and_open() {
@@ -83,7 +91,8 @@ void SessionReader::read(const QString& file, const std::string& rescued) {
 void SessionReader::read_next() {
   const auto path = path_of(waiting_.front().file);
   const bool is_copy = !waiting_.front().rescued.empty();
-  jobs_.push_back(engine::BackgroundJob::start(this, [this, path, is_copy](engine::BackgroundJob& job) {
+  progress_->begin(tr("Opening %1").arg(QFileInfo(waiting_.front().file).fileName()));
+  carry_out([this, path, is_copy](engine::BackgroundJob& job) {
     auto contents = without_exceptions([&] { return document::load_session(path); });
     if (!contents) {
       auto copies = is_copy ? std::vector<document::Recoverable>() : find_copies();
@@ -95,7 +104,21 @@ void SessionReader::read_next() {
     job.deliver([this, contents = std::make_shared<const document::SessionContents>(std::move(*contents))] {
       find_volume(contents);
     });
-  }));
+  });
+}
+
+// The reading that is cut off ends: others wait for it.
+void SessionReader::carry_out(std::function<void(engine::BackgroundJob&)> work) {
+  reading_ = engine::BackgroundJob::start(
+      this, std::move(work), [this](const Error& error) { end_reading(engine::message_text(error)); });
+}
+
+// What hangs may do so until the end of the program: nobody waits for it any more.
+void SessionReader::cancel() {
+  if (waiting_.empty()) return;
+  reading_->abandon();
+  loader_.cancel();
+  end_reading();
 }
 
 // What else there is to go on with: another copy of the file, or one that was kept for a crash.
@@ -113,6 +136,7 @@ void SessionReader::refuse(const QString& problem, const std::vector<document::R
 
 void SessionReader::end_reading(const QString& problem) {
   if (!problem.isEmpty()) window_.tell(problem, kAboutOpening);
+  progress_->hide();
   waiting_.pop_front();
   if (!waiting_.empty()) read_next();
 }
@@ -126,15 +150,10 @@ void SessionReader::find_volume(std::shared_ptr<const document::SessionContents>
 
 // The volume is here: is it the one that the session is about? Comparing reads all of it.
 void SessionReader::compare(const std::shared_ptr<const engine::LoadedStudy>& study) {
-  jobs_.push_back(engine::BackgroundJob::start(
-      this, [this, study, contents = waiting_.front().contents](engine::BackgroundJob& job) {
-        const auto found = without_exceptions(
-            [&]() -> Result<document::VolumeMatch> { return document::match(*contents, *study->volume); });
-        job.deliver([this, study, found] {
-          if (!found) return end_reading(engine::message_text(found.error()));
-          judge(study, *found);
-        });
-      }));
+  carry_out([this, study, contents = waiting_.front().contents](engine::BackgroundJob& job) {
+    const auto found = document::match(*contents, *study->volume);
+    job.deliver([this, study, found] { judge(study, found); });
+  });
 }
 
 void SessionReader::judge(const std::shared_ptr<const engine::LoadedStudy>& study,
@@ -145,10 +164,10 @@ void SessionReader::judge(const std::shared_ptr<const engine::LoadedStudy>& stud
         tr("The study of the session %1 is another one now: its size or place differ").arg(waiting.file));
   }
   if (found == document::VolumeMatch::other_voxels &&
-      QMessageBox::question(
-          &window_, tr("Open a session"),
+      ask(&window_, tr("Open a session"),
           tr("The voxels of this study are not those that the session was saved with. Go on "
-             "all the same? Nothing is overwritten.")) != QMessageBox::Yes) {
+             "all the same? Nothing is overwritten."),
+          QMessageBox::Yes | QMessageBox::No, QMessageBox::Yes) != QMessageBox::Yes) {
     return end_reading();
   }
   waiting_.front().other_voxels = found == document::VolumeMatch::other_voxels;
@@ -158,16 +177,13 @@ void SessionReader::judge(const std::shared_ptr<const engine::LoadedStudy>& stud
 // They are read once the study is known to be the right one.
 void SessionReader::find_images(const std::shared_ptr<const engine::LoadedStudy>& study) {
   const auto contents = waiting_.front().contents;
-  jobs_.push_back(engine::BackgroundJob::start(
-      this,
-      [this, study, contents](engine::BackgroundJob& job) {
-        auto with_images = std::make_shared<document::SessionContents>(*contents);
-        QStringList problems;
-        for (const std::string& problem : document::find_images(*with_images, {nullptr, job.stop()}))
-          problems << engine::message_text(problem);
-        job.deliver([this, study, with_images, problems] { restore(study, with_images, problems); });
-      },
-      [this](const Error& error) { end_reading(engine::message_text(error)); }));
+  carry_out([this, study, contents](engine::BackgroundJob& job) {
+    auto with_images = std::make_shared<document::SessionContents>(*contents);
+    QStringList problems;
+    for (const std::string& problem : document::find_images(*with_images, {nullptr, job.stop()}))
+      problems << engine::message_text(problem);
+    job.deliver([this, study, with_images, problems] { restore(study, with_images, problems); });
+  });
 }
 
 void SessionReader::restore(const std::shared_ptr<const engine::LoadedStudy>& study,
@@ -197,13 +213,14 @@ void SessionReader::keep_rescued(CaseWindow& window, const std::string& copy) {
 
 // To tell whether a copy is whole, all of it is read.
 void SessionReader::offer_rescued() {
-  jobs_.push_back(engine::BackgroundJob::start(this, [this](engine::BackgroundJob& job) {
+  if (finding_) finding_->abandon();
+  finding_ = engine::BackgroundJob::start(this, [this](engine::BackgroundJob& job) {
     const auto work = std::make_shared<const RescuedWork>(RescuedWork{find_copies(), find_lesson()});
     job.deliver([this, work] {
       offer(*work,
             tr("Tidemark did not end as it should the last time, and kept copies of what was not saved:"));
     });
-  }));
+  });
 }
 
 void SessionReader::offer(const RescuedWork& work, const QString& why) {

@@ -4,6 +4,7 @@
 #include <QObject>
 #include <QStringList>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -20,8 +21,10 @@ class BackgroundJob;
 namespace tidemark::ui {
 
 class MainWindow;
+class StatusProgress;
 
-// Sessions that are opened together are opened one after the other.
+// Sessions that are opened together are opened one after the other. The status bar has the one that is being
+// read, and a button that gives it up.
 class SessionReader : public QObject {
   Q_OBJECT
  public:
@@ -51,6 +54,8 @@ class SessionReader : public QObject {
 
   void read(const QString& file, const std::string& rescued);
   void read_next();
+  void carry_out(std::function<void(engine::BackgroundJob&)> work);
+  void cancel();
   void refuse(const QString& problem, const std::vector<document::Recoverable>& copies);
   void end_reading(const QString& problem = {});
   void find_volume(std::shared_ptr<const document::SessionContents> contents);
@@ -64,8 +69,10 @@ class SessionReader : public QObject {
 
   MainWindow& window_;
   engine::StudyLoader loader_;
-  std::deque<Waiting> waiting_;  // the first is being read
-  std::vector<std::shared_ptr<engine::BackgroundJob>> jobs_;
+  StatusProgress* progress_;
+  std::deque<Waiting> waiting_;                     // the first is being read
+  std::shared_ptr<engine::BackgroundJob> reading_;  // its last piece of work
+  std::shared_ptr<engine::BackgroundJob> finding_;  // what there is to rescue
 };
 
 }  // namespace tidemark::ui

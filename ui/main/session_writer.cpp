@@ -1,13 +1,13 @@
 #include "ui/main/session_writer.h"
 
 #include <QCloseEvent>
-#include <QMessageBox>
 #include <utility>
 
 #include "document/session_file.h"
 #include "ui/main/main_window.h"
 #include "ui/main/session_reader.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/question.h"
 
 namespace tidemark::ui {
 
@@ -62,9 +62,9 @@ void SessionWriter::save_to(CaseWindow& window, const QString& file, CaseFiles::
 void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
   if (closes_later(window)) return event->ignore();
   if (!window.proxy().state().modified) return event->accept();
-  const auto answer = QMessageBox::question(
-      &window_, tr("Close"), tr("%1 has changes that are not in a session file.").arg(window.proxy().name()),
-      QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+  const auto answer = ask(&window_, tr("Close"),
+                          tr("%1 has changes that are not in a session file.").arg(window.proxy().name()),
+                          QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
   event->setAccepted(answer == QMessageBox::Discard);
   if (answer != QMessageBox::Save) return;
   // It closes itself once the file is written.

@@ -5,16 +5,12 @@
 
 #include "engine/message_text.h"
 #include "ui/main/value_bar.h"
-#include "ui/opening/loading_view.h"
 #include "ui/settings.h"
 
 namespace tidemark::ui {
 
 StatusBar::StatusBar(const engine::Engine& engine, QWidget* parent)
-    : QStatusBar(parent),
-      values_(new ValueBar),
-      value_details_(new QToolButton),
-      loading_(new LoadingView(LoadingView::Shape::line)) {
+    : QStatusBar(parent), values_(new ValueBar), value_details_(new QToolButton) {
   addWidget(values_, 1);
   value_details_->setText(tr("Details"));
   value_details_->setAccessibleName(tr("Details of the values under the mouse"));
@@ -26,8 +22,6 @@ StatusBar::StatusBar(const engine::Engine& engine, QWidget* parent)
   value_details_->setChecked(settings::details("values").get());
   value_details_->hide();  // until there is a case
   addPermanentWidget(value_details_);
-  loading_->hide();
-  addPermanentWidget(loading_);
   note_renderer(engine);
 }
 

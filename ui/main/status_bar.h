@@ -1,4 +1,4 @@
-// The status bar: values under the mouse, the progress of loading, and who draws.
+// The status bar: values under the mouse, and who draws.
 #pragma once
 
 #include <QStatusBar>
@@ -9,7 +9,6 @@ class QToolButton;
 
 namespace tidemark::ui {
 
-class LoadingView;
 class ValueBar;
 
 constexpr int kShownMs = 8000;  // a message about what was done
@@ -21,14 +20,12 @@ class StatusBar : public QStatusBar {
 
   // Null: there is no case.
   void set_proxy(engine::CaseProxy* proxy);
-  [[nodiscard]] LoadingView& loading() { return *loading_; }
 
  private:
   void note_renderer(const engine::Engine& engine);
 
   ValueBar* values_;
   QToolButton* value_details_;
-  LoadingView* loading_;
 };
 
 }  // namespace tidemark::ui

@@ -4,7 +4,6 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QMenu>
-#include <QMessageBox>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -23,7 +22,9 @@
 #include "ui/main/main_window.h"
 #include "ui/main/side_dock.h"
 #include "ui/settings.h"
+#include "ui/widgets/menu_text.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/question.h"
 
 namespace tidemark::ui {
 namespace {
@@ -51,7 +52,9 @@ void Teaching::fill(QMenu& menu) {
   for (const document::OwnLesson& own : document::own_lessons()) {
     const auto lesson = document::Lesson::parse(own.text, std::string(own.name));
     if (!lesson) continue;  // a test holds that none is
-    auto* action = menu.addAction(QStringLiteral("&%1 %2").arg(++number).arg(lesson_words(lesson->title)));
+    const QString form = ++number < 10 ? QStringLiteral("&%1 %2") : QStringLiteral("%1 %2");
+    const QString title = menu_text(lesson_words(lesson->title));
+    auto* action = menu.addAction(form.arg(QString::number(number), title));
     action->setToolTip(lesson_words(lesson->about));
     connect(action, &QAction::triggered, this, [this, lesson = *lesson] { begin(lesson, {}); });
   }
@@ -217,8 +220,8 @@ LessonEditor& Teaching::editor() {
 
 bool Teaching::may_end(const QString& question) {
   return !course_ || !course_->has_news() ||
-         QMessageBox::question(&window_, tr("End the lesson"), question, QMessageBox::Yes | QMessageBox::No,
-                               QMessageBox::No) == QMessageBox::Yes;
+         ask(&window_, tr("End the lesson"), question, QMessageBox::Yes | QMessageBox::No, QMessageBox::No) ==
+             QMessageBox::Yes;
 }
 
 bool Teaching::may_end() {

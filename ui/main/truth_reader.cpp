@@ -17,8 +17,8 @@
 #include "ui/main/main_window.h"
 #include "ui/main/panel_docks.h"
 #include "ui/main/status_bar.h"
-#include "ui/opening/loading_view.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::ui {
 namespace {
@@ -28,9 +28,7 @@ const char* const kAboutTruth = "comparison with a mask";
 }  // namespace
 
 TruthReader::TruthReader(MainWindow& window)
-    : QObject(&window), window_(window), progress_(new LoadingView(LoadingView::Shape::line)) {
-  progress_->hide();
-  window.statusBar()->addPermanentWidget(progress_);
+    : QObject(&window), window_(window), progress_(new StatusProgress(*window.statusBar())) {
   connect(window.actions().compare_with_mask, &QAction::triggered, this, [this] {
     if (CaseWindow* active = window_.active_case()) {
       ask_for_labels(window_, *active, tr("Compare with a mask"),
@@ -43,8 +41,7 @@ TruthReader::TruthReader(MainWindow& window)
   connect(window.actions().stop_comparing, &QAction::triggered, this, [this] {
     if (CaseWindow* active = window_.active_case()) active->proxy().compare_as_the_study();
   });
-  connect(&jobs_, &engine::ResultJobs::progressed, progress_, &LoadingView::set_progress);
-  connect(progress_, &LoadingView::cancelled, &jobs_, &engine::ResultJobs::cancel);
+  progress_->follow(jobs_);
   connect(&jobs_, &engine::ResultJobs::labels_read, this, &TruthReader::choose);
   connect(&jobs_, &engine::ResultJobs::cancelled, this, [this] { end(); });
   connect(&jobs_, &engine::ResultJobs::failed, this, &TruthReader::end);
@@ -57,8 +54,7 @@ TruthReader::~TruthReader() {
 void TruthReader::read(CaseWindow& window, const QString& file) {
   if (jobs_.busy()) return window_.tell(tr("A mask is being read already."), kAboutTruth);
   read_ = {&window, file};
-  progress_->begin(QFileInfo(file).fileName());
-  progress_->show();
+  progress_->begin(tr("Reading %1").arg(QFileInfo(file).fileName()));
   engine::CaseProxy& proxy = window.proxy();
   jobs_.read_labels(path_of(file), proxy.volume().geometry, false, proxy.study().frame_of_reference_uid);
 }
@@ -87,8 +83,10 @@ void TruthReader::choose(const std::shared_ptr<const imaging::Segments>& segment
   regions->setCurrentIndex(1);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
   auto* rows = new QVBoxLayout(dialog);
-  rows->addWidget(
-      new QLabel(tr("%1 has %2 regions. Which is the true one?").arg(file).arg(segments->list.size())));
+  auto* question = new QLabel(
+      tr("%1 has %2 regions. Which is the true one?").arg(file, QString::number(segments->list.size())));
+  question->setTextFormat(Qt::PlainText);
+  rows->addWidget(question);
   rows->addWidget(regions);
   rows->addWidget(buttons);
   connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);

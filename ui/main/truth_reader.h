@@ -17,8 +17,8 @@ class BackgroundJob;
 
 namespace tidemark::ui {
 
-class LoadingView;
 class MainWindow;
+class StatusProgress;
 
 // Carries out File > Compare with a mask and Compare with the chosen label, on the active case.
 class TruthReader : public QObject {
@@ -49,7 +49,7 @@ class TruthReader : public QObject {
 
   MainWindow& window_;
   engine::ResultJobs jobs_;
-  LoadingView* progress_;
+  StatusProgress* progress_;
   Subject read_;                                                        // last
   QHash<CaseWindow*, std::shared_ptr<engine::BackgroundJob>> jobs_of_;  // that make the masks of cases
 };

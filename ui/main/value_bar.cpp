@@ -73,6 +73,7 @@ void ValueBar::follow() {
 // The tent is known at once; other functions may take a while.
 QString ValueBar::speed_at(Index3 voxel) const {
   const auto text = [](double speed) { return number_text(speed, 2); };
+  if (proxy_->state().lacks_speed) return QStringLiteral("–");
   const auto& function = proxy_->state().speed;
   if (!function) return text(solver::data_speed(proxy_->parameters(), proxy_->source()->value(voxel)));
   speed_->ask({function, voxel, Index3(1)});

@@ -10,6 +10,7 @@
 #include "ui/panels/window_presets.h"
 #include "ui/views/picture_view.h"
 #include "ui/views/probe_drags.h"
+#include "ui/widgets/menu_text.h"
 #include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
@@ -50,11 +51,9 @@ const document::Label* label_at(const engine::CaseProxy& proxy, glm::dvec3 place
 
 void add_label(QMenu& menu, PictureView& view, std::optional<glm::dvec3> place_mm) {
   const document::Label* label = place_mm ? label_at(view.proxy(), *place_mm) : nullptr;
-  QAction* action =
-      menu.addAction(icon(u"label"),
-                     label ? tr("Choose the &label “%1”")
-                                 .arg(QString::fromStdString(label->name).replace(u'&', QStringLiteral("&&")))
-                           : tr("Choose the &label here"));
+  QAction* action = menu.addAction(
+      icon(u"label"), label ? tr("Choose the &label “%1”").arg(menu_text(QString::fromStdString(label->name)))
+                            : tr("Choose the &label here"));
   action->setEnabled(label != nullptr);
   if (!label) return;
   QObject::connect(action, &QAction::triggered, &view,

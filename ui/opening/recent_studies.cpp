@@ -7,6 +7,7 @@
 #include "engine/background_job.h"
 #include "engine/study_picture.h"
 #include "ui/opening/recent_pictures.h"
+#include "ui/widgets/menu_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -35,11 +36,6 @@ void write_study(const RecentStudy& study, QSettings& settings) {
   settings.setValue("name", study.name);
   if (study.policy.tilt == imaging::GridPolicy::Tilt::keep) settings.setValue("tilt", kKeep);
   if (study.policy.gaps == imaging::GridPolicy::Gaps::fill) settings.setValue("gaps", kFill);
-}
-
-// A text that a menu shows literally.
-QString menu_text(QString text) {
-  return text.replace(QLatin1Char('&'), QStringLiteral("&&"));
 }
 
 }  // namespace

@@ -104,8 +104,6 @@ void SeriesBrowser::build_table() {
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setDragEnabled(true);
-  table_->setDragDropMode(QAbstractItemView::DragOnly);
   table_->setTabKeyNavigation(false);  // Tab goes on to the buttons; arrows go through rows
   table_->setShowGrid(false);
   table_->setWordWrap(false);

@@ -2,7 +2,6 @@
 
 #include <QApplication>
 #include <QIcon>
-#include <QMimeData>
 #include <QPainter>
 #include <QPalette>
 #include <QStyle>
@@ -12,7 +11,6 @@
 
 #include "engine/message_text.h"
 #include "engine/study_loader.h"
-#include "ui/opening/dropped_paths.h"
 #include "ui/opening/grid_text.h"
 
 namespace tidemark::ui {
@@ -179,24 +177,6 @@ QVariant SeriesModel::headerData(int section, Qt::Orientation orientation, int r
                                     tr("Date"),   tr("Voxels"),  tr("Spacing (mm)"),
                                     tr("Frame"),  tr("Files"),   tr("Notes")};
   return titles[section];
-}
-
-Qt::ItemFlags SeriesModel::flags(const QModelIndex& index) const {
-  const Qt::ItemFlags basic = QAbstractTableModel::flags(index);
-  return index.isValid() && series(index.row()).loadable ? basic | Qt::ItemIsDragEnabled : basic;
-}
-
-QStringList SeriesModel::mimeTypes() const {
-  return {QString::fromLatin1(kSeriesMimeType)};
-}
-
-QMimeData* SeriesModel::mimeData(const QModelIndexList& indexes) const {
-  if (indexes.isEmpty()) return nullptr;
-  const imaging::Series& one = series(indexes.front().row());
-  auto* data = new QMimeData;
-  put_series(*data, {QString::fromStdString(engine::StudyLoader::place_of(one).string()),
-                     QString::fromStdString(one.uid)});
-  return data;
 }
 
 QPixmap SeriesModel::preview(int row) const {

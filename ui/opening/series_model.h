@@ -12,8 +12,7 @@
 
 namespace tidemark::ui {
 
-// Loadable series come first, the largest on top. A picture is made when its row is first painted. Rows can
-// be dragged (kSeriesMimeType).
+// Loadable series come first, the largest on top. A picture is made when its row is first painted.
 class SeriesModel : public QAbstractTableModel {
   Q_OBJECT
  public:
@@ -33,9 +32,6 @@ class SeriesModel : public QAbstractTableModel {
   [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
   [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
   [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-  [[nodiscard]] Qt::ItemFlags flags(const QModelIndex& index) const override;
-  [[nodiscard]] QStringList mimeTypes() const override;
-  [[nodiscard]] QMimeData* mimeData(const QModelIndexList& indexes) const override;
 
  private:
   [[nodiscard]] QString text(const imaging::Series& series, int column) const;

@@ -11,10 +11,10 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "engine/phantom_text.h"
 #include "imaging/phantom/phantom.h"
 #include "ui/opening/card_button.h"
 #include "ui/opening/dropped_paths.h"
-#include "ui/opening/phantom_menu.h"
 #include "ui/widgets/relative_font.h"
 
 namespace tidemark::ui {

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "engine/message_text.h"
-#include "ui/opening/phantom_menu.h"
+#include "engine/phantom_text.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::ui {
 namespace {
@@ -81,6 +82,15 @@ void StudyOpener::cancel() {
   loader_.cancel();
 }
 
+void StudyOpener::show_in(StatusProgress& progress) {
+  connect(this, &StudyOpener::began, &progress, [&progress](const QString& what) {
+    progress.begin(what.isEmpty() ? tr("Opening a study") : tr("Opening %1").arg(what));
+  });
+  connect(this, &StudyOpener::progressed, &progress, &StatusProgress::set_progress);
+  connect(this, &StudyOpener::ended, &progress, &QWidget::hide);
+  connect(&progress, &StatusProgress::cancelled, this, &StudyOpener::cancel);
+}
+
 std::vector<engine::FoundResult> StudyOpener::results_beside(const engine::LoadedStudy& study) const {
   return last_opened_.lock().get() == &study ? beside_last_opened_ : std::vector<engine::FoundResult>();
 }
@@ -113,7 +123,8 @@ void StudyOpener::next() {
 }
 
 void StudyOpener::begin(const QString& what) {
-  emit began(asked_ > 1 ? tr("%1 (%2 of %3)").arg(what).arg(number_).arg(asked_) : what);
+  emit began(asked_ > 1 ? tr("%1 (%2 of %3)").arg(what, QString::number(number_), QString::number(asked_))
+                        : what);
 }
 
 void StudyOpener::look_at(const std::shared_ptr<const imaging::Catalogue>& catalogue) {
@@ -127,7 +138,7 @@ void StudyOpener::look_at(const std::shared_ptr<const imaging::Catalogue>& catal
   browser_->show_catalogue(catalogue, path_);
   connect(browser_, &SeriesBrowser::chosen, this, &StudyOpener::load_as_wanted);
   connect(browser_, &SeriesBrowser::rejected, this, &StudyOpener::next);
-  browser_->show();  // not modal: series can be dragged from it to a view
+  browser_->show();  // not modal
   emit ended();
 }
 

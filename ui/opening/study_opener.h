@@ -19,6 +19,8 @@
 
 namespace tidemark::ui {
 
+class StatusProgress;
+
 // Opens one study after the other, in the order of the requests. While the user chooses a series, or how its
 // slices become a regular grid, earlier requests wait. A new request during the choice gives the choice
 // up.
@@ -39,6 +41,8 @@ class StudyOpener : public QObject {
   // Whether previewed() is needed; at first, yes. A preview of a volume file reads the whole file once
   // more.
   void set_previews_wanted(bool wanted) { previews_wanted_ = wanted; }
+  // What is being opened, and how far it is. Its Cancel is cancel().
+  void show_in(StatusProgress& progress);
 
   // Null while there is nothing to choose from, and nothing to ask.
   [[nodiscard]] SeriesBrowser* browser() const { return browser_; }
@@ -47,11 +51,11 @@ class StudyOpener : public QObject {
   [[nodiscard]] std::vector<engine::FoundResult> results_beside(const engine::LoadedStudy& study) const;
 
  signals:
-  void began(const QString& what);                        // for LoadingView::begin(): "head_t1 (2 of 3)"
-  void progressed(double fraction, const QString& step);  // for LoadingView::set_progress()
+  void began(const QString& what);                        // "head_t1 (2 of 3)"
+  void progressed(double fraction, const QString& step);  // as engine::JobRunner says it
   void previewed(const QImage& middle_slice);             // of what is being loaded; not of all series
   void opened(std::shared_ptr<const tidemark::engine::LoadedStudy> study);
-  void failed(const QString& message);  // for LoadingView::fail(); once for all that wait for each other
+  void failed(const QString& message);  // once for all that wait for each other
   void ended();  // nothing is being looked for or loaded (opened, given up, or to be chosen by the user)
 
  private:

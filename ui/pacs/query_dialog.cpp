@@ -116,6 +116,12 @@ QWidget* QueryDialog::make_bottom() {
   choose->setAutoDefault(false);
   choose->setToolTip(tr("Choose the folder"));
   connect(choose, &QPushButton::clicked, this, &QueryDialog::choose_folder);
+  if (is_locked(settings::retrieval_folder().name())) {
+    for (QWidget* part : {static_cast<QWidget*>(folder_), static_cast<QWidget*>(choose)}) {
+      part->setEnabled(false);
+      part->setToolTip(tr("The site has chosen this folder"));
+    }
+  }
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, bottom);
   buttons->addButton(open_, QDialogButtonBox::ActionRole);
   open_->setAutoDefault(false);
@@ -156,10 +162,11 @@ void QueryDialog::retrieve() {
   const auto chosen = tree_->chosen();
   if (!chosen || servers_->server() == nullptr || client_.busy()) return;
   settings::retrieval_folder().set(folder_->text());
+  const QDir folder(settings::retrieval_folder().get());  // the site's where it is locked
   // Named by the time, not by anything that says whose it is.
   const QString name = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd hh-mm-ss-zzz"));
   const imaging::RetrieveRequest request{chosen->study_uid.toStdString(), chosen->series_uid.toStdString(),
-                                         QDir(folder_->text()).filePath(name).toStdString()};
+                                         folder.filePath(name).toStdString()};
   begin(tr("Calling the server"));
   client_.retrieve(*servers_->server(), request, servers_->limits());
 }

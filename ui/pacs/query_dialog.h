@@ -22,7 +22,8 @@ class QueryDialog : public QDialog {
   // `servers` is the file of servers.
   explicit QueryDialog(std::filesystem::path servers, QWidget* parent = nullptr);
 
-  // The folder for what is retrieved; each retrieval makes a new folder in it.
+  // The folder for what is retrieved; each retrieval makes a new folder in it. Where the site has locked it,
+  // the site's counts.
   void set_folder(const QString& folder);
   // Asks that server, or the chosen one where the name is empty, as if the user had entered the query.
   // Nothing is brought before the user wants it. Fails (ErrorKind::usage) where there is no such server, or

@@ -11,6 +11,7 @@
 #include "ui/panels/balance_bars.h"
 #include "ui/panels/balance_text.h"
 #include "ui/panels/value_unit.h"
+#include "ui/views/driven_by.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/into_sight.h"
 #include "ui/widgets/number_text.h"
@@ -98,6 +99,8 @@ void BalanceControls::refresh() {
     comes_to_sight_ = comes_to_sight_ || !was_found;
   } else if (!begun) {
     why_->setText(tr("Once there is a surface, this says why it moves or rests at a place."));
+  } else if (proxy()->state().lacks_speed) {
+    why_->setText(lacking_speed_text(proxy()->state()));
   } else if (!balance.asked()) {
     why_->setText(tr("Choose the tool Why here? and click on the surface, or point at it with Ctrl held."));
   } else if (!balance.waits()) {

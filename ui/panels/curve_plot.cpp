@@ -3,6 +3,7 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ui/look/theme.h"
 #include "ui/widgets/number_text.h"
@@ -28,7 +29,6 @@ void CurvePlot::set_mark(double value, const QString& meaning) {
 }
 
 void CurvePlot::set_points(std::vector<QPointF> points) {
-  if (logarithmic_) std::erase_if(points, [](const QPointF& point) { return !(point.y() > 0.0); });
   if (points == points_) return;
   points_ = std::move(points);
   setAccessibleDescription(last_text());
@@ -38,6 +38,12 @@ void CurvePlot::set_points(std::vector<QPointF> points) {
 void CurvePlot::set_predicted(std::vector<QPointF> points) {
   if (points == predicted_) return;
   predicted_ = std::move(points);
+  update();
+}
+
+void CurvePlot::set_steps(Steps steps) {
+  if (steps == steps_) return;
+  steps_ = steps;
   update();
 }
 
@@ -70,14 +76,17 @@ double CurvePlot::scaled(double value) const {
 }
 
 CurvePlot::Span CurvePlot::span() const {
-  Span span{scaled(points_.front().y()), scaled(points_.front().y())};
-  const auto include = [&span](double value) {
-    span.low = std::min(span.low, value);
-    span.high = std::max(span.high, value);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Span span{kInfinity, -kInfinity};
+  const auto include = [&](double value) {
+    if (!has_place(value)) return;
+    span.low = std::min(span.low, scaled(value));
+    span.high = std::max(span.high, scaled(value));
   };
-  for (const QPointF& point : points_) include(scaled(point.y()));
-  for (const QPointF& point : predicted_) include(scaled(point.y()));
-  if (mark_) include(scaled(*mark_));
+  for (const QPointF& point : points_) include(point.y());
+  for (const QPointF& point : predicted_) include(point.y());
+  if (mark_) include(*mark_);
+  if (span.low > span.high) return {};
   // A curve that does not move is a line in the middle, not noise from top to bottom.
   const double least = logarithmic_ ? 0.5 : std::max(kLeastShare * std::abs(span.high), 1e-9);
   const double missing = least - (span.high - span.low);
@@ -104,9 +113,7 @@ void CurvePlot::paintEvent(QPaintEvent* /*event*/) {
 void CurvePlot::paint_curve(QPainter& painter, const QRectF& area) const {
   const Span values = span();
   const PlotAxis up{values.low, values.high, area.bottom(), area.top()};
-  const double first = points_.front().x();
-  const double ahead = predicted_.empty() ? first : predicted_.back().x();
-  const PlotAxis along{first, std::max({points_.back().x(), ahead, first + 1.0}), area.left(), area.right()};
+  const PlotAxis along{steps_.first, steps_.last, area.left(), area.right()};
   if (mark_) {
     painter.setPen(QPen(palette().color(QPalette::PlaceholderText), 1.0, Qt::DashLine));
     const double y = up.pixel(scaled(*mark_));
@@ -115,15 +122,19 @@ void CurvePlot::paint_curve(QPainter& painter, const QRectF& area) const {
   const auto line_of = [&](const std::vector<QPointF>& points) {
     QPolygonF line;
     line.reserve(static_cast<qsizetype>(points.size()));
-    for (const QPointF& point : points) line << QPointF(along.pixel(point.x()), up.pixel(scaled(point.y())));
+    for (const QPointF& point : points) {
+      if (has_place(point.y())) line << QPointF(along.pixel(point.x()), up.pixel(scaled(point.y())));
+    }
     return line;
   };
   const QPolygonF curve = line_of(points_);
   painter.setPen(measured_pen(palette()));
   painter.drawPolyline(curve);
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(palette().color(QPalette::Link));
-  painter.drawEllipse(curve.back(), 2.5, 2.5);
+  if (has_place(points_.back().y())) {
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(palette().color(QPalette::Link));
+    painter.drawEllipse(curve.back(), 2.5, 2.5);
+  }
   painter.setPen(predicted_pen(palette()));
   painter.drawPolyline(line_of(predicted_));
 }

@@ -1,6 +1,7 @@
 #include "ui/panels/evolution_curves.h"
 
 #include <QLabel>
+#include <algorithm>
 
 #include "engine/case_prediction.h"
 #include "ui/panels/curve_legend.h"
@@ -66,16 +67,19 @@ void EvolutionCurves::refresh() {
 
 void EvolutionCurves::show_measured() {
   const document::Curve::Points& curve = *proxy()->state().curve.points();
-  const auto show = [&curve](CurvePlot* plot, double document::CurvePoint::*quantity) {
+  const auto points_of = [&curve](double document::CurvePoint::*quantity) {
     std::vector<QPointF> points;
     points.reserve(curve.size());
     for (const document::CurvePoint& point : curve)
       points.emplace_back(static_cast<double>(point.step), point.*quantity);
-    plot->set_points(std::move(points));
+    return points;
   };
-  show(volume_, &document::CurvePoint::volume_ml);
-  show(area_, &document::CurvePoint::surface_mm2);
-  show(motion_, &document::CurvePoint::surface_speed);
+  volume_->set_points(points_of(&document::CurvePoint::volume_ml));
+  area_->set_points(points_of(&document::CurvePoint::surface_mm2));
+  std::vector<QPointF> motion = points_of(&document::CurvePoint::surface_speed);
+  // Before the first step none is known.
+  if (!motion.empty() && !(motion.front().y() > 0.0)) motion.erase(motion.begin());
+  motion_->set_points(std::move(motion));
   std::vector<QPointF> dice;
   for (const document::CurvePoint& point : curve) {
     if (point.dice) dice.emplace_back(static_cast<double>(point.step), *point.dice);
@@ -112,6 +116,19 @@ void EvolutionCurves::show_predicted() {
   const auto tip = [&about](const QString& what) { return about.isEmpty() ? what : what + "\n\n" + about; };
   volume_->setToolTip(tip(tr("The volume inside the surface, over the steps.")));
   area_->setToolTip(tip(tr("The area of the surface, over the steps.")));
+  show_steps();
+}
+
+// The same for all, so that each step has one place.
+void EvolutionCurves::show_steps() {
+  if (!proxy() || proxy()->state().curve.points()->empty()) return;
+  const document::Curve::Points& curve = *proxy()->state().curve.points();
+  const auto first = static_cast<double>(curve.front().step);
+  double last = std::max(static_cast<double>(curve.back().step), first + 1.0);
+  for (const CurvePlot* plot : {volume_, area_}) {
+    if (!plot->predicted().empty()) last = std::max(last, plot->predicted().back().x());
+  }
+  for (CurvePlot* plot : {volume_, area_, motion_, dice_}) plot->set_steps({first, last});
 }
 
 }  // namespace tidemark::ui

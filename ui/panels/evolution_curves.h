@@ -26,6 +26,7 @@ class EvolutionCurves : public CaseWidget {
  private:
   void show_measured();
   void show_predicted();
+  void show_steps();
 
   engine::CasePrediction* prediction_;
   QWidget* predicted_part_;  // where there is a law

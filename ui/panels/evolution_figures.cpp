@@ -92,7 +92,12 @@ void EvolutionFigures::refresh() {
   dice_->setText(state.begun && state.dice ? number_text(*state.dice, 3) : kNothing);
   const auto& truth = proxy()->truth();
   dice_part_->setVisible(truth != nullptr);
-  if (truth && state.begun && state.phi) comparison_->ask(truth, state.phi);
+  if (truth && state.begun && state.phi) {
+    comparison_->ask(truth, state.phi);
+  } else {
+    comparison_->forget();
+  }
+  show_distances();
   truth_->setChecked(proxy()->display().settings().truth);
   truth_error_->setChecked(proxy()->display().settings().truth_error);
   const double measured = state.playing ? state.steps_per_second : state.solver_steps_per_second;

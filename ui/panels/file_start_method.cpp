@@ -4,7 +4,9 @@
 #include <QHBoxLayout>
 #include <QLineEdit>
 #include <QPointer>
+#include <QPushButton>
 #include <QToolButton>
+#include <utility>
 
 #include "core/without_exceptions.h"
 #include "engine/background_job.h"
@@ -38,8 +40,13 @@ FileStartMethod::FileStartMethod(StartFile kind, QWidget* parent) : StartMethod(
   row->setSpacing(kSpaceTight);
   row->addWidget(path_, 1);
   row->addWidget(browse);
+  cancel_ = new QPushButton(tr("Cancel"));
+  cancel_->setToolTip(tr("Gives up reading the file."));
+  cancel_->hide();
+  row->addWidget(cancel_);
   form.wide(row);
   connect(browse, &QToolButton::clicked, this, &FileStartMethod::choose);
+  connect(cancel_, &QPushButton::clicked, this, &FileStartMethod::cancel);
   connect(path_, &QLineEdit::textChanged, this, &StartMethod::changed);
   if (kind != StartFile::mask) return;
   refine_ = new RefineChoice;
@@ -47,8 +54,14 @@ FileStartMethod::FileStartMethod(StartFile kind, QWidget* parent) : StartMethod(
   connect(refine_, &RefineChoice::changed, this, &StartMethod::changed);
 }
 
-FileStartMethod::~FileStartMethod() {
-  if (reading_) reading_->abandon();
+void FileStartMethod::Reading::give_up() {
+  if (job) job->abandon();
+  job.reset();
+}
+
+bool FileStartMethod::is_reading() const {
+  const Reading* reading = readings_.find(proxy());
+  return reading != nullptr && reading->job != nullptr;
 }
 
 QString FileStartMethod::title() const {
@@ -56,7 +69,7 @@ QString FileStartMethod::title() const {
 }
 
 QString FileStartMethod::sentence() const {
-  if (reading_) return tr("Reading the file …");
+  if (is_reading()) return tr("Reading the file …");
   const QString name = QFileInfo(path_->text()).fileName();
   if (name.isEmpty()) return tr("Choose a file first.");
   if (const auto within_mm = refine_ ? refine_->within_mm() : std::nullopt) {
@@ -68,7 +81,7 @@ QString FileStartMethod::sentence() const {
 }
 
 bool FileStartMethod::can_start() const {
-  return proxy() && !reading_ && !path_->text().isEmpty();
+  return proxy() && !is_reading() && !path_->text().isEmpty();
 }
 
 void FileStartMethod::choose() {
@@ -87,25 +100,59 @@ void FileStartMethod::choose() {
 void FileStartMethod::start(int levels) {
   const QPointer<engine::CaseProxy> wanted(proxy());
   const std::filesystem::path path = path_of(path_->text());
-  StartRequest request{kind_, path, proxy()->volume().geometry, proxy()->state().band, std::nullopt, levels};
+  StartRequest request{kind_,
+                       path,
+                       proxy()->volume().geometry,
+                       proxy()->study().frame_of_reference_uid,
+                       proxy()->state().band,
+                       std::nullopt,
+                       levels};
   if (refine_) request.within_mm = refine_->within_mm();
-  reading_ = engine::BackgroundJob::start(this, [this, wanted, request](engine::BackgroundJob& job) {
-    const auto start = std::make_shared<Result<document::Start>>(without_exceptions([&] {
-      return load_start(request, {nullptr, job.stop()});
-    }));
-    job.deliver([this, wanted, start] { take(*start, wanted); });
-  });
+  readings_[*proxy()].job = engine::BackgroundJob::start(
+      this,
+      [this, wanted, request](engine::BackgroundJob& job) {
+        const auto loaded = std::make_shared<Result<LoadedStart>>(without_exceptions([&] {
+          return load_start(request, {nullptr, job.stop()});
+        }));
+        job.deliver([this, wanted, loaded] { take(*loaded, wanted); });
+      },
+      [this, wanted](const Error& error) { take(tl::unexpected<Error>(error), wanted); });
+  show_reading();
   emit changed();
 }
 
-void FileStartMethod::take(const Result<document::Start>& start, engine::CaseProxy* proxy) {
-  reading_.reset();
-  if (!start) {
-    emit failed(engine::message_text(start.error()));
-  } else if (proxy) {
-    proxy->begin(*start);
-  }
+void FileStartMethod::cancel() {
+  if (!proxy()) return;
+  readings_[*proxy()].give_up();
+  show_reading();
   emit changed();
+}
+
+void FileStartMethod::take(const Result<LoadedStart>& loaded, engine::CaseProxy* of) {
+  if (!of) return;
+  Reading& reading = readings_[*of];
+  reading.job.reset();
+  if (loaded) {
+    of->begin(loaded->start);
+    const QString remarks = engine::message_text(loaded->remarks);
+    if (!remarks.isEmpty()) reading.remark = tr("%1: %2").arg(loaded->name, remarks);
+  } else {
+    reading.problem = engine::message_text(loaded.error());
+  }
+  if (of != proxy()) return;
+  show_reading();
+  emit changed();
+}
+
+void FileStartMethod::attach() {
+  cancel_->hide();
+}
+
+void FileStartMethod::show_reading() {
+  Reading& reading = readings_[*proxy()];
+  cancel_->setVisible(reading.job != nullptr);
+  if (const QString problem = std::exchange(reading.problem, {}); !problem.isEmpty()) emit failed(problem);
+  if (const QString remark = std::exchange(reading.remark, {}); !remark.isEmpty()) emit remarked(remark);
 }
 
 }  // namespace tidemark::ui

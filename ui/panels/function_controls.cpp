@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/stroke_painting.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/panels/map_choice.h"

@@ -14,15 +14,14 @@ namespace {
 
 constexpr int kStatePicture = 48;
 constexpr int kLaneWidth = 12;
-constexpr int kMostLanes = 5;  // lines further right share the last one
 constexpr double kNode = 4.0;  // radius
 
 double lane_middle(const QRect& row, int lane) {
-  return row.left() + kSpaceTight + (std::min(lane, kMostLanes - 1) + 0.5) * kLaneWidth;
+  return row.left() + kSpaceTight + (lane + 0.5) * kLaneWidth;
 }
 
 int lanes_width(int lanes) {
-  return kSpaceTight + std::min(lanes, kMostLanes) * kLaneWidth;
+  return kSpaceTight + lanes * kLaneWidth;
 }
 
 void paint_lanes(QPainter& painter, const QRect& row, const HistoryItem& item, const QPalette& palette) {
@@ -85,7 +84,7 @@ void paint_words(QPainter& painter, const QRect& where, const HistoryItem& item,
 void HistoryDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
                             const QModelIndex& index) const {
   const auto* model = qobject_cast<const HistoryModel*>(index.model());
-  const HistoryItem* item = model ? model->item(index) : nullptr;
+  const auto item = model ? model->item(index) : std::nullopt;
   if (!item) return;
   QStyleOptionViewItem row = option;
   initStyleOption(&row, index);

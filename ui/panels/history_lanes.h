@@ -7,17 +7,21 @@
 
 namespace tidemark::ui {
 
+inline constexpr int kMostLanes = 5;  // lines further right share the last one
+
 struct TreeRow {
   std::uint64_t id = 0;
   std::optional<std::uint64_t> parent;
+
+  bool operator==(const TreeRow&) const = default;
 };
 
 // Of a row. Lanes count from 0 at the left.
 struct RowLanes {
   int lane = 0;  // of the row's own node
   bool parent_below = false;
-  std::vector<int> above;    // from which lines of children come down to the node
-  std::vector<int> through;  // in which lines pass by
+  std::vector<int> above;    // from which lanes lines of children come down to the node
+  std::vector<int> through;  // in which lanes lines pass by
 
   bool operator==(const RowLanes&) const = default;
 };

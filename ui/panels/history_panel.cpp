@@ -88,7 +88,7 @@ QWidget* HistoryPanel::make_comparison() {
 void HistoryPanel::clicked(const QModelIndex& index) {
   list_->setCurrentIndex(index);
   if (QGuiApplication::keyboardModifiers() & Qt::ControlModifier) {
-    const HistoryItem* item = model_->item(index);
+    const auto item = model_->item(index);
     compare(item && !item->compared);
   } else {
     go();
@@ -101,7 +101,7 @@ bool HistoryPanel::eventFilter(QObject* watched, QEvent* event) {
     return Panel::eventFilter(watched, event);
   const int key = static_cast<const QKeyEvent*>(event)->key();
   const bool goes = key == Qt::Key_Return || key == Qt::Key_Enter;
-  const HistoryItem* item = model_->item(list_->currentIndex());
+  const auto item = model_->item(list_->currentIndex());
   if (!item || (!goes && key != Qt::Key_Space)) return Panel::eventFilter(watched, event);
   event->accept();
   if (type == QEvent::KeyPress && goes) go();
@@ -110,12 +110,12 @@ bool HistoryPanel::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void HistoryPanel::go() {
-  const HistoryItem* item = model_->item(list_->currentIndex());
+  const auto item = model_->item(list_->currentIndex());
   if (proxy() && item && !item->present) proxy()->go_to(item->id);
 }
 
 void HistoryPanel::compare(bool on) {
-  const HistoryItem* item = model_->item(list_->currentIndex());
+  const auto item = model_->item(list_->currentIndex());
   if (!proxy()) return;
   const bool can = item && !item->open && !item->figures.isEmpty();
   proxy()->comparison().choose(on && can ? std::optional(item->id) : std::nullopt);
@@ -138,7 +138,7 @@ void HistoryPanel::attach() {
 
 void HistoryPanel::refresh() {
   const engine::CaseState& state = proxy()->state();
-  const HistoryItem* before = model_->item(list_->currentIndex());
+  const auto before = model_->item(list_->currentIndex());
   const std::uint64_t chosen = before ? before->id : 0;
   model_->show(state, proxy()->comparison().state());
   const std::uint64_t present = state.open_change ? state.open_change->id : state.history_state;
@@ -153,7 +153,7 @@ void HistoryPanel::refresh() {
 }
 
 void HistoryPanel::show_buttons() {
-  const HistoryItem* item = model_->item(list_->currentIndex());
+  const auto item = model_->item(list_->currentIndex());
   go_->setEnabled(item && !item->present);
   compare_->setEnabled(item && !item->open && !item->figures.isEmpty());
   compare_->setChecked(item && item->compared);
@@ -163,7 +163,7 @@ void HistoryPanel::show_comparison() {
   engine::StateComparison& comparison = proxy()->comparison();
   comparison_->setVisible(comparison.state().has_value());
   if (!comparison.state()) return;
-  const HistoryItem* item = model_->item(model_->index_of(*comparison.state()));
+  const auto item = model_->item(model_->index_of(*comparison.state()));
   with_->setText(item ? item->figures : kNothing);
   const auto& agreement = comparison.agreement();
   dice_->setText(agreement ? number_text(agreement->dice, 3) : kNothing);

@@ -174,7 +174,7 @@ void ImageControls::show_chosen() {
   if (ranged_ != image->image) {
     ranged_ = image->image;
     const auto [low, high] = ranged_->volume->common_range();
-    const double span = std::max<double>(static_cast<double>(high) - static_cast<double>(low), 1e-6);
+    const double span = span_between(low, high);
     const int decimals = decimals_for(span);
     const double smallest = std::pow(10.0, -decimals);
     for (SliderNumber* number : {width_, level_}) {

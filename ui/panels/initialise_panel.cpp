@@ -43,10 +43,12 @@ void InitialisePanel::add_methods() {
     from_->addItem(method->title());
     add(method);
     connect(method, &StartMethod::changed, this, &InitialisePanel::show_sentence);
-    connect(method, &StartMethod::failed, this, [this](const QString& message) {
+    const auto say = [this](const QString& message) {
       problem_->setText(message);
       problem_->show();
-    });
+    };
+    connect(method, &StartMethod::failed, this, say);
+    connect(method, &StartMethod::remarked, this, say);
   }
 }
 
@@ -81,10 +83,10 @@ void InitialisePanel::add_start() {
 
 void InitialisePanel::show_method(int index) {
   method_ = index;
+  problem_->hide();
   for (int other = 0; other < static_cast<int>(methods_.size()); ++other) {
     methods_[static_cast<std::size_t>(other)]->setVisible(other == index);
   }
-  problem_->hide();
   show_sentence();
 }
 
@@ -105,8 +107,8 @@ void InitialisePanel::show_sentence() {
 }
 
 void InitialisePanel::attach() {
+  problem_->hide();  // the parts may tell of one of the next case
   Panel::attach();
-  problem_->hide();
 }
 
 void InitialisePanel::refresh() {

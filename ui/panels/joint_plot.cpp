@@ -65,10 +65,11 @@ QPointF JointPlot::position_of(const JointHistogram::Place& place) const {
 void JointPlot::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.fillRect(rect(), palette().color(QPalette::Base));
-  if (!histogram() || histogram()->counts.empty()) {
+  if (!histogram()) {
+    const QString& problem = counter_->problem();
     painter.setPen(palette().color(QPalette::PlaceholderText));
-    painter.drawText(rect(), Qt::AlignCenter,
-                     histogram() ? tr("The images share no place.") : tr("Counting…"));
+    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
+                     problem.isEmpty() ? tr("Counting…") : problem);
     return;
   }
   paint_counts(painter);

@@ -15,7 +15,7 @@ class JointPlot : public CaseWidget {
 
   // Whether the case has two images to show.
   [[nodiscard]] static bool fits(const document::Drive& drive);
-  // Null: not known yet.
+  // Null: not known.
   [[nodiscard]] const std::shared_ptr<const engine::JointHistogram>& histogram() const {
     return counter_->answer();
   }

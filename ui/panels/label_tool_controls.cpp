@@ -204,16 +204,23 @@ void LabelToolControls::choose_tool() {
   look_again();
 }
 
+// A list that is open stays so while nothing in it changes.
 void LabelToolControls::fill_others() {
-  const QVariant was = other_->currentData();
-  other_->clear();
+  std::vector<std::pair<QString, std::uint8_t>> others;
   const auto chosen = tool();
-  if (chosen != LabelTool::watershed) other_->addItem(tr("Surface"), document::kTheSurface);
+  if (chosen != LabelTool::watershed) others.emplace_back(tr("Surface"), document::kTheSurface);
   for (const document::Label& label : proxy()->state().labels) {
     // Labels do not overlap: there is nothing to take away from one another.
     if (!chosen || !has_other_label(*chosen) || labels_ == std::vector{label.id}) continue;
-    other_->addItem(QString::fromStdString(label.name), label.id);
+    others.emplace_back(QString::fromStdString(label.name), label.id);
   }
+  std::vector<std::pair<QString, std::uint8_t>> known;
+  for (int n = 0; n < other_->count(); ++n)
+    known.emplace_back(other_->itemText(n), static_cast<std::uint8_t>(other_->itemData(n).toInt()));
+  if (others == known) return;
+  const QVariant was = other_->currentData();
+  other_->clear();
+  for (const auto& [name, id] : others) other_->addItem(name, id);
   other_->setCurrentIndex(std::max(other_->findData(was), 0));
 }
 

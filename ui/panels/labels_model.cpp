@@ -55,7 +55,7 @@ QVariant LabelsModel::text(const document::Label& label, int row, int column) co
       return QString::fromStdString(label.name);
     case volume:
       return static_cast<std::size_t>(row) < statistics_.size()
-                 ? number_text(statistics_[static_cast<std::size_t>(row)].volume_ml, 1)
+                 ? size_text(statistics_[static_cast<std::size_t>(row)].volume_ml, 1)
                  : QString();
     default:
       return {};

@@ -141,7 +141,7 @@ QWidget* LabelsPanel::make_actions() {
   compare_->setToolTip(tr(
       "Dice, distances and colours for how far the surface is from the chosen label, while it moves, too."));
   form.wide(compare_);
-  opacity_ = form.slider(tr("Opacity"), tr("Of all labels, in slices."));
+  opacity_ = form.slider(tr("Opacity"), tr("Of all labels, in slices and in 3D."));
   opacity_->set_decimals(0);
   opacity_->set_range(0.0, 100.0);
   opacity_->set_unit(QStringLiteral("%"));

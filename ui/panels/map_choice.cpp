@@ -4,21 +4,26 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QVBoxLayout>
 
 #include "core/without_exceptions.h"
 #include "document/speed_map.h"
 #include "engine/message_text.h"
+#include "imaging/results/results.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
 #include "ui/settings.h"
 #include "ui/widgets/file_patterns.h"
+#include "ui/widgets/form.h"
 #include "ui/widgets/path_text.h"
 
 namespace tidemark::ui {
 
 MapChoice::MapChoice(QWidget* parent) : CaseWidget(parent) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(kSpace);
+  auto* row = new QHBoxLayout;
   row->setSpacing(kSpace);
   button_ = new QPushButton(icon(u"open-file"), tr("Choose a map…"));
   button_->setToolTip(
@@ -30,6 +35,10 @@ MapChoice::MapChoice(QWidget* parent) : CaseWidget(parent) {
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   row->addWidget(button_);
   row->addWidget(name_, 1);
+  remark_ = make_note({});
+  remark_->hide();
+  column->addLayout(row);
+  column->addWidget(remark_);
 }
 
 MapChoice::~MapChoice() {
@@ -51,6 +60,11 @@ void MapChoice::refresh() {
   name_->setText(reading_ ? tr("Reading the file …") : name);
   name_->setToolTip(name);
   button_->setEnabled(!reading_);
+  const auto remark =
+      map ? imaging::frame_remark({&map->frame_of_reference_uid, 1}, proxy()->study().frame_of_reference_uid)
+          : std::nullopt;
+  remark_->setText(remark ? engine::message_text(*remark) : QString());
+  remark_->setVisible(remark.has_value());
 }
 
 void MapChoice::choose() {

@@ -36,6 +36,7 @@ class MapChoice : public CaseWidget {
 
   QPushButton* button_;
   QLabel* name_;
+  QLabel* remark_;
   std::shared_ptr<engine::BackgroundJob> reading_;  // null: none
 };
 

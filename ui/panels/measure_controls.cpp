@@ -87,15 +87,12 @@ void MeasureControls::show_measures() {
   image_->clear();
   if (measures) {
     const imaging::Diameters& d = measures->diameters;
-    const auto mm = [](double value) { return number_text(value, 1, tr("mm")); };
-    const auto number = [](double value) { return number_text(value, 1); };
+    const auto mm = [](double value) { return size_text(value, 1, tr("mm")); };
+    const auto number = [](double value) { return size_text(value, 1); };
     in_slice_->setText(times({number(d.in_slice.length_mm()), mm(d.across.length_mm())}));
     longest_->setText(mm(d.longest.length_mm()));
     reach_->setText(times({number(d.reach_mm.x), number(d.reach_mm.y), mm(d.reach_mm.z)}));
-    // As the solver measures it, which stands above, but where the study's end cuts the surface.
-    const bool as_above = meter()->label() == document::kTheSurface && !measures->is_cut;
-    const double area_mm2 = as_above ? proxy()->state().surface.surface_mm2 : measures->area_mm2;
-    area_->setText(number_text(area_mm2, 0, tr("mm²")));
+    area_->setText(size_text(measures->area_mm2, 0, tr("mm²")));
     sphericity_->setText(number_text(measures->sphericity, 3));
     for (const document::ImageValues& image : measures->images)
       image_->addItem(QString::fromStdString(image.image));
@@ -115,6 +112,7 @@ void MeasureControls::fill_values() {
     const auto add = [&](const QString& name, double value) {
       lines.push_back({name, number_text(value, decimals, unit)});
     };
+    if (image.covered < 1.0) lines.push_back({tr("Part that is covered"), share_text(image.covered)});
     add(tr("Mean"), inside.mean);
     add(tr("SD"), inside.standard_deviation);
     add(tr("Smallest"), inside.smallest);

@@ -3,7 +3,6 @@
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -18,6 +17,7 @@
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/path_text.h"
+#include "ui/widgets/question.h"
 #include "ui/widgets/work_line.h"
 
 namespace tidemark::ui {
@@ -182,8 +182,8 @@ bool ModelControls::may_send() {
                           "server %2:\n\n%3\n\nNo "
                           "name, no number and no DICOM header are sent. The server may keep what it gets.")
                            .arg(sent->name(), QString::fromStdString(choice_->server()->name), where);
-  const auto answer = QMessageBox::question(this, tr("Send this study?"), text,
-                                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
+  const auto answer =
+      ui::ask(this, tr("Send this study?"), text, QMessageBox::Yes | QMessageBox::No, QMessageBox::No);
   if (answer != QMessageBox::Yes || !sent || sent != proxy()) return false;
   cases_[*sent].allowed.insert(where);
   return true;

@@ -24,7 +24,6 @@ class Panel : public CaseWidget {
   void fill_height();          // the parts take all of it, and the first one what is over
   void attach() override;
   void refresh() override {}
-  [[nodiscard]] QWidget* content() const { return content_; }
 
  private:
   QLabel* hint_;

@@ -3,8 +3,10 @@
 #include <QCoreApplication>
 #include <QLocale>
 #include <QStringList>
+#include <algorithm>
 
 #include "core/csv.h"
+#include "document/result_files.h"
 #include "engine/case_proxy.h"
 #include "ui/panels/value_unit.h"
 #include "ui/widgets/number_text.h"
@@ -16,33 +18,41 @@ QString text(const char* words) {
   return QCoreApplication::translate("RegionTable", words);
 }
 
-// How a table writes its numbers.
+// How a table writes its numbers: for programs with a point and all digits that tell, or for people.
 struct Notation {
-  QLocale locale;
-  [[nodiscard]] QString number(double value, int decimals) const {
-    return locale.toString(rounded(value, decimals), 'f', decimals);
+  bool for_programs = false;
+  int of_values = 3;  // digits behind the point, of the study's values
+
+  [[nodiscard]] QString size(double number, int decimals) const {
+    return for_programs ? exact(number) : size_text(number, decimals);
   }
-  [[nodiscard]] QString count(std::int64_t value) const {
-    return locale.toString(static_cast<qlonglong>(value));
+  [[nodiscard]] QString value(double number) const {
+    return for_programs ? exact(number) : number_text(number, of_values);
   }
+  [[nodiscard]] QString count(std::int64_t number) const {
+    return for_programs ? QString::number(number) : count_text(number);
+  }
+
+ private:
+  static QString exact(double number) { return QString::number(number + 0.0, 'g', 10); }
 };
 
 constexpr int kFigures = 6;  // volume, area, voxels, mean, SD, length or angle
 
 QStringList cells(const RegionRow& row, const Notation& notation) {
   return {row.name,
-          notation.number(row.volume_ml, 3),
-          row.area_mm2 ? notation.number(*row.area_mm2, 1) : QString(),
+          notation.size(row.volume_ml, 3),
+          row.area_mm2 ? notation.size(*row.area_mm2, 1) : QString(),
           notation.count(row.voxels),
-          row.values ? notation.number(row.values->mean, 3) : QString(),
-          row.values ? notation.number(row.values->standard_deviation, 3) : QString(),
+          row.values ? notation.value(row.values->mean) : QString(),
+          row.values ? notation.value(row.values->standard_deviation) : QString(),
           QString()};
 }
 
 QStringList cells(const engine::Measurement& measurement, const QString& name, const Notation& notation) {
   QStringList row(kFigures + 1);
   row.first() = name;
-  row.last() = notation.number(measurement.value(), 2);
+  row.last() = notation.size(measurement.value(), 2);
   return row;
 }
 
@@ -95,18 +105,17 @@ std::vector<RegionRow> region_rows(const engine::CaseState& state) {
   return rows;
 }
 
-// Names of columns do not depend on the language: programs read them.
+// Names of columns and of the surface do not depend on the language: programs read them.
 std::string to_csv(engine::CaseProxy& proxy) {
   const QString unit = value_unit(proxy.volume());
-  QLocale plain = QLocale::c();
-  plain.setNumberOptions(QLocale::OmitGroupSeparator);
-  const Notation notation{plain};
+  const Notation notation{true};
   std::string csv =
       csv_row({QStringLiteral("name"), QStringLiteral("volume_ml"), QStringLiteral("area_mm2"),
                QStringLiteral("voxels"), QStringLiteral("mean"), QStringLiteral("sd"),
                QStringLiteral("value_unit"), QStringLiteral("measured"), QStringLiteral("measured_unit")});
   for (const RegionRow& row : region_rows(proxy.state())) {
     QStringList line = cells(row, notation);
+    if (row.area_mm2) line.first() = QString::fromLatin1(document::kSurfaceSegment);
     line.insert(kFigures, row.values ? unit : QString());
     csv += csv_row(line << QString());
   }
@@ -123,7 +132,8 @@ std::string to_csv(engine::CaseProxy& proxy) {
 
 QString to_text(engine::CaseProxy& proxy) {
   const QString unit = value_unit(proxy.volume());
-  const Notation notation{number_locale()};
+  const double span = span_between(proxy.summary().low, proxy.summary().high);
+  const Notation notation{false, std::max(3, value_decimals(span))};
   QStringList lines;
   lines << QStringList{text(QT_TRANSLATE_NOOP("RegionTable", "Region")),
                        text(QT_TRANSLATE_NOOP("RegionTable", "Volume (ml)")),

@@ -27,7 +27,7 @@ struct RegionRow {
 // The surface first, if there is one, then the labels.
 std::vector<RegionRow> region_rows(const engine::CaseState& state);
 
-// RFC 4180, numbers with a point in every locale.
+// RFC 4180, numbers with a point in every locale and all digits that tell; no name depends on the language.
 std::string to_csv(engine::CaseProxy& proxy);
 
 // Columns parted by tabs, numbers as the user's language writes them: for spreadsheets and reports.

@@ -142,11 +142,17 @@ void RegistrationDialog::show_found(const imaging::Registration& found) {
     accept_->setFocus();
   });
   after_->show();
+  const QString turn = number_text(found.rotation_degrees, 1);
+  const QString shift = number_text(glm::length(found.translation_mm), 1);
+  const QString after = number_text(found.information_after, 3);
   text_->setText(
-      tr("Turned by %1°, its middle shifted by %2 mm; mutual information %3, before %4. Compare the "
-         "pictures before you accept.")
-          .arg(number_text(found.rotation_degrees, 1), number_text(glm::length(found.translation_mm), 1),
-               number_text(found.information_after, 3), number_text(found.information_before, 3)));
+      found.information_before
+          ? tr("Turned by %1°, its middle shifted by %2 mm; mutual information %3, before %4. Compare the "
+               "pictures before you accept.")
+                .arg(turn, shift, after, number_text(*found.information_before, 3))
+          : tr("Turned by %1°, its middle shifted by %2 mm; mutual information %3. The images lay apart: the "
+               "search began with their middles on one another. Compare the pictures before you accept.")
+                .arg(turn, shift, after));
 }
 
 // The image may have been taken out of the case meanwhile.

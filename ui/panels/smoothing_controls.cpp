@@ -2,6 +2,8 @@
 
 #include <QLabel>
 #include <QPushButton>
+#include <algorithm>
+#include <cmath>
 
 #include "ui/widgets/form.h"
 #include "ui/widgets/number_text.h"
@@ -36,7 +38,11 @@ SmoothingControls::SmoothingControls(QWidget* parent) : CaseWidget(parent) {
 }
 
 void SmoothingControls::attach() {
-  if (proxy()) sigma_->set_value(proxy()->state().smoothed_mm);
+  if (!proxy()) return;
+  // A lesson or a recipe may have smoothed by more.
+  const double now = proxy()->state().smoothed_mm;
+  sigma_->set_range(0.0, std::max(kMostSmoothing, now));
+  sigma_->set_value(now);
 }
 
 void SmoothingControls::refresh() {

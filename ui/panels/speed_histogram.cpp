@@ -41,12 +41,21 @@ SpeedHistogram::SpeedHistogram(QWidget* parent)
 }
 
 void SpeedHistogram::attach() {
-  bars_.clear();
+  clear();
 }
 
 void SpeedHistogram::refresh() {
-  if (proxy()->state().speed) sampler_->ask(slice_of(*proxy()));
+  if (proxy()->state().speed) {
+    sampler_->ask(slice_of(*proxy()));
+  } else {
+    clear();
+  }
   update();
+}
+
+void SpeedHistogram::clear() {
+  sampler_->ask({});
+  bars_.clear();
 }
 
 void SpeedHistogram::count() {

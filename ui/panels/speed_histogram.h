@@ -26,6 +26,7 @@ class SpeedHistogram : public CaseWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  void clear();
   void count();
 
   engine::SpeedSampler* sampler_;

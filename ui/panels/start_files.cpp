@@ -6,8 +6,8 @@
 
 namespace tidemark::ui {
 
-Result<document::Start> load_start(const StartRequest& request, const Progress& progress) {
-  const auto& [kind, path, grid, band, within_mm, levels] = request;
+Result<LoadedStart> load_start(const StartRequest& request, const Progress& progress) {
+  const auto& [kind, path, grid, frame_of_reference_uid, band, within_mm, levels] = request;
   const std::string name = path.filename().string();
   document::Start start;
   start.levels = levels;
@@ -21,7 +21,10 @@ Result<document::Start> load_start(const StartRequest& request, const Progress& 
       mask = std::move(*refined);
     }
     start.from = std::move(mask);
-    return start;
+    std::vector<std::string> remarks = std::move(loaded->changes);
+    if (auto remark = imaging::frame_remark(loaded->frames_of_reference, frame_of_reference_uid))
+      remarks.push_back(std::move(*remark));
+    return LoadedStart{std::move(start), QString::fromStdString(name), std::move(remarks)};
   }
   const auto volume = imaging::load_volume(path, {}, progress);
   if (!volume) return pass_on(volume);
@@ -29,7 +32,7 @@ Result<document::Start> load_start(const StartRequest& request, const Progress& 
   if (!values) return pass_on(values);
   start.from = document::FieldStart{
       std::make_shared<const solver::Field>(solver::Field::from_dense(grid, *values, band)), name};
-  return start;
+  return LoadedStart{std::move(start), QString::fromStdString(name), {}};
 }
 
 }  // namespace tidemark::ui

@@ -22,6 +22,7 @@ class StartMethod : public CaseWidget {
  signals:
   void changed();  // the sentence
   void failed(const QString& message);
+  void remarked(const QString& message);  // on what the start was made from
 };
 
 }  // namespace tidemark::ui

@@ -57,6 +57,18 @@ QWidget* StatisticsPanel::make_tables() {
   measurements_title_ = form.heading(tr("Measurements"));
   measured_ = new FigureTable({tr("Kind"), tr("Value")}, tr("Measurements"));
   form.wide(measured_);
+  remove_ = new QPushButton(icon(u"remove"), tr("Remove"));
+  remove_->setToolTip(tr("Removes the selected measurements, as the key Delete does in their list."));
+  form.wide(remove_);
+  connect(remove_, &QPushButton::clicked, this, &StatisticsPanel::remove_measurements);
+  auto* by_key = new QAction(measured_);
+  by_key->setShortcut(QKeySequence::Delete);
+  by_key->setShortcutContext(Qt::WidgetShortcut);
+  measured_->addAction(by_key);
+  connect(by_key, &QAction::triggered, this, &StatisticsPanel::remove_measurements);
+  const auto follow_selection = [this] { remove_->setEnabled(measured_->selectionModel()->hasSelection()); };
+  connect(measured_, &QTableWidget::itemSelectionChanged, this, follow_selection);
+  follow_selection();
   return part;
 }
 
@@ -80,9 +92,19 @@ void StatisticsPanel::show_measurements(const std::vector<engine::Measurement>& 
   for (const engine::Measurement& measurement : measurements) {
     if (!measurement.complete()) continue;
     lines.push_back(
-        {kind_text(measurement.kind), number_text(measurement.value(), 1, unit_text(measurement.kind))});
+        {kind_text(measurement.kind), size_text(measurement.value(), 1, unit_text(measurement.kind))});
   }
   measured_->fill(lines, measurements_title_);
+  remove_->setVisible(!lines.empty());
+}
+
+void StatisticsPanel::remove_measurements() {
+  change_display([this](engine::DisplaySettings& settings) {
+    int row = 0;
+    std::erase_if(settings.measurements, [&](const engine::Measurement& measurement) {
+      return measurement.complete() && measured_->selectionModel()->isRowSelected(row++);
+    });
+  });
 }
 
 void StatisticsPanel::copy() const {
@@ -96,6 +118,7 @@ void StatisticsPanel::set_export_action(QAction* action) {
 
 void StatisticsPanel::attach() {
   Panel::attach();
+  measured_->clearSelection();
   if (proxy()) return;
   show_surface({});
   show_labels({});
@@ -106,8 +129,8 @@ void StatisticsPanel::show_surface(const std::vector<RegionRow>& rows) {
   const bool there = !rows.empty() && rows.front().area_mm2.has_value();
   const bool measured = there && rows.front().values.has_value();
   const QString unit = proxy() ? value_unit(proxy()->volume()) : QString();
-  volume_->setText(there ? number_text(rows.front().volume_ml, 2, tr("ml")) : kNothing);
-  area_->setText(there ? number_text(*rows.front().area_mm2, 0, tr("mm²")) : kNothing);
+  volume_->setText(there ? size_text(rows.front().volume_ml, 2, tr("ml")) : kNothing);
+  area_->setText(there ? size_text(*rows.front().area_mm2, 0, tr("mm²")) : kNothing);
   voxels_->setText(there ? count_text(rows.front().voxels) : kNothing);
   mean_->setText(measured ? study_figure(*proxy(), rows.front().values->mean, unit) : kNothing);
   deviation_->setText(measured ? study_figure(*proxy(), rows.front().values->standard_deviation, unit)
@@ -118,7 +141,7 @@ void StatisticsPanel::show_labels(const std::vector<RegionRow>& rows) {
   std::vector<QStringList> lines;
   for (const RegionRow& row : rows) {
     if (row.area_mm2) continue;
-    lines.push_back({row.name, number_text(row.volume_ml, 1),
+    lines.push_back({row.name, size_text(row.volume_ml, 1),
                      row.values ? study_figure(*proxy(), row.values->mean) : kNothing,
                      row.values ? study_figure(*proxy(), row.values->standard_deviation) : kNothing});
   }

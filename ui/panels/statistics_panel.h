@@ -31,6 +31,7 @@ class StatisticsPanel : public Panel {
   void show_surface(const std::vector<RegionRow>& rows);
   void show_labels(const std::vector<RegionRow>& rows);
   void show_measurements(const std::vector<engine::Measurement>& measurements);
+  void remove_measurements();  // those that are selected
 
   QLabel* volume_;
   QLabel* area_;
@@ -41,6 +42,7 @@ class StatisticsPanel : public Panel {
   FigureTable* labels_;
   QLabel* measurements_title_;
   FigureTable* measured_;
+  QPushButton* remove_;
   QPushButton* export_;
 };
 

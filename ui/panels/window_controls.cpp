@@ -33,7 +33,7 @@ std::vector<WindowPreset> window_presets(const Volume& volume, const engine::Sou
   const double lowest = summary.lowest;
   const double highest = summary.highest;
   presets.push_back({text(QT_TRANSLATE_NOOP("WindowPresets", "Full range")),
-                     {(lowest + highest) / 2.0, std::max(highest - lowest, 1e-6)}});
+                     {(lowest + highest) / 2.0, span_between(lowest, highest)}});
   return presets;
 }
 
@@ -66,7 +66,7 @@ void WindowControls::attach() {
   preset_->setItemData(0, tr("As set below, or in a view"), Qt::ToolTipRole);
   for (const WindowPreset& preset : presets_) preset_->addItem(preset.name);
 
-  const double span = std::max<double>(summary.high - summary.low, 1e-6);
+  const double span = span_between(summary.low, summary.high);
   const double all = std::max<double>(summary.highest - summary.lowest, span);
   const int decimals = decimals_for(span);
   const double smallest = std::pow(10.0, -decimals);

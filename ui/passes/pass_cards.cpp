@@ -163,7 +163,7 @@ void PassCards::add_derivatives() {
                                {tr("2 φx"), tr("2 φy"), tr("2 φz"), tr("φ before")},
                                {tr("φxx"), tr("φyy"), tr("φzz")},
                                {tr("4 φxy"), tr("4 φxz"), tr("4 φyz")}};
-  const QString titles[] = {tr("Upwind"), tr("Central"), tr("Second"), tr("Mixed")};
+  const QString titles[] = {tr("Upwind"), tr("Central"), tr("Second order"), tr("Mixed")};
   const QString tips[] = {tr("φ, the upwind gradient of a front that moves outward and of one that moves "
                              "inward, and the least product of φ "
                              "with a neighbour: below 0 beside the surface."),

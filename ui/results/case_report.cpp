@@ -47,7 +47,7 @@ QString heading(const QString& words) {
 }
 
 QString mm(double value) {
-  return number_text(value, 1, tr("mm"));
+  return size_text(value, 1, tr("mm"));
 }
 
 Result<std::vector<Reported>> measure_all(const ReportSource& source,
@@ -99,10 +99,10 @@ QString sizes(const std::vector<Reported>& regions) {
     const document::Measures& all = region.measures;
     const imaging::Diameters& d = all.diameters;
     rows << QStringList{QStringLiteral("<span style='color:%1'>■</span> %2").arg(region.colour, region.name),
-                        number_text(all.volume_ml, 2, tr("ml")),
-                        tr("%1 × %2").arg(number_text(d.in_slice.length_mm(), 1), mm(d.across.length_mm())),
+                        size_text(all.volume_ml, 2, tr("ml")),
+                        tr("%1 × %2").arg(size_text(d.in_slice.length_mm(), 1), mm(d.across.length_mm())),
                         mm(d.longest.length_mm()),
-                        number_text(all.area_mm2, 0, tr("mm²")),
+                        size_text(all.area_mm2, 0, tr("mm²")),
                         number_text(all.sphericity, 3)};
   }
   return table({tr("Region"), tr("Volume"), tr("In a slice"), tr("Longest"), tr("Area"), tr("Sphericity")},
@@ -117,8 +117,11 @@ QString values(const std::vector<Reported>& regions) {
       const imaging::InsideValues& inside = image.values;
       const int decimals = inside.uptake ? 2 : value_decimals(image.span);
       const QString unit = text(image.unit);
+      const QString name = text(image.image);
       rows << QStringList{
-          region.name, text(image.image),
+          region.name,
+          image.covered < 1.0 ? tr("%1 (covers %2 of the region)").arg(name, share_text(image.covered))
+                              : name,
           tr("%1 ± %2").arg(number_text(inside.mean, decimals),
                             number_text(inside.standard_deviation, decimals, unit)),
           number_text(inside.percentiles[imaging::kPercentiles.size() / 2], decimals, unit),

@@ -18,6 +18,7 @@
 #include "ui/look/theme.h"
 #include "ui/settings.h"
 #include "ui/widgets/form.h"
+#include "ui/widgets/menu_text.h"
 #include "ui/widgets/number_box.h"
 #include "ui/widgets/path_line.h"
 #include "ui/widgets/path_text.h"
@@ -135,8 +136,8 @@ void DeidentifyDialog::make_source(Form& form, const engine::LoadedStudy* study)
     QStringList parts{QString::fromStdString(study->patient.name), study->name};
     parts.removeAll(QString());
     const QString whole = parts.join(QStringLiteral(", "));
-    QString name = of_series_->fontMetrics().elidedText(whole, Qt::ElideMiddle, kSeriesWidth);
-    of_series_->setText(tr("The &series that is open: %1").arg(name.replace('&', QStringLiteral("&&"))));
+    const QString name = of_series_->fontMetrics().elidedText(whole, Qt::ElideMiddle, kSeriesWidth);
+    of_series_->setText(tr("The &series that is open: %1").arg(menu_text(name)));
     of_series_->setAccessibleDescription(whole);
     of_series_->setChecked(true);
   }
@@ -270,6 +271,10 @@ bool DeidentifyDialog::overwrites_something() {
 
 void DeidentifyDialog::begin() {
   if (work_->working()) return;
+  if (dates_->currentIndex() == kMovedByDays && !days_->problem().isEmpty()) {
+    days_->setFocus();
+    return rest(days_->problem());
+  }
   // They are relative to a folder that becomes another one.
   for (QLineEdit* line : {source_, target_}) line->setText(absolute(*line));
   if (overwrites_something()) return;

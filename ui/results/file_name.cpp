@@ -10,15 +10,30 @@
 namespace tidemark::ui {
 namespace {
 
-// Whether a part of the patient's name or number is in it; initials say nothing.
+// As one text, whether its characters are composed, and as wide as others.
+QString comparable(const QString& text) {
+  return text.normalized(QString::NormalizationForm_KC);
+}
+
+// Initials tell nothing. Names in scripts without capitals, as Chinese, may be as short.
+bool tells(const QString& part) {
+  constexpr qsizetype kInitials = 2;
+  const auto characters = part.toUcs4();
+  return part.size() > kInitials || std::any_of(characters.begin(), characters.end(), [](char32_t one) {
+           return QChar::category(one) == QChar::Letter_Other;
+         });
+}
+
+// Whether a part of the patient's name or number is in it.
 bool tells_the_patient(const QString& text, const imaging::Patient& patient) {
   static const QRegularExpression kBetweenParts(QStringLiteral("[^\\w]+"),
                                                 QRegularExpression::UseUnicodePropertiesOption);
-  constexpr qsizetype kInitials = 2;
-  QStringList parts = QString::fromStdString(patient.name).split(kBetweenParts, Qt::SkipEmptyParts);
-  parts << QString::fromStdString(patient.id);
+  QStringList parts =
+      comparable(QString::fromStdString(patient.name)).split(kBetweenParts, Qt::SkipEmptyParts);
+  parts << comparable(QString::fromStdString(patient.id));
+  const QString among = comparable(text);
   return std::any_of(parts.begin(), parts.end(), [&](const QString& part) {
-    return part.size() > kInitials && text.contains(part, Qt::CaseInsensitive);
+    return tells(part) && among.contains(part, Qt::CaseInsensitive);
   });
 }
 
@@ -28,7 +43,12 @@ QString file_name_of(const QString& text) {
   static const QRegularExpression kNotInNames(QStringLiteral("[^\\w .()+-]"),
                                               QRegularExpression::UseUnicodePropertiesOption);
   constexpr int kLongest = 60;
-  return text.left(kLongest).replace(kNotInNames, QStringLiteral("-")).simplified();
+  QString name = text;
+  name.replace(kNotInNames, QStringLiteral("-"));
+  // Not within a surrogate pair.
+  if (name.size() > kLongest)
+    name.truncate(name.at(kLongest - 1).isHighSurrogate() ? kLongest - 1 : kLongest);
+  return name.simplified();
 }
 
 QString file_name_of(const engine::LoadedStudy& study) {

@@ -147,11 +147,14 @@ void SendResultDialog::tell(const imaging::Sent& sent) {
                     .arg(receiver_, engine::message_text(sent.unsent.front().reason)));
   }
   const bool of_study = !proxy().study().dicom_files.empty();
-  rest(sent.objects > 1
-           ? of_study ? tr("%1 has it, as %2 new series of this study.").arg(receiver_).arg(sent.objects)
-                      : tr("%1 has it, as new studies of an anonymous patient.").arg(receiver_)
-       : of_study ? tr("%1 has it, as a new series of this study.").arg(receiver_)
-                  : tr("%1 has it, as a new study of an anonymous patient.").arg(receiver_));
+  if (of_study && sent.objects > 1) {
+    return rest(
+        tr("%1 has it, as %2 new series of this study.").arg(receiver_, QString::number(sent.objects)));
+  }
+  const QString text = of_study           ? tr("%1 has it, as a new series of this study.")
+                       : sent.objects > 1 ? tr("%1 has it, as new studies of an anonymous patient.")
+                                          : tr("%1 has it, as a new study of an anonymous patient.");
+  rest(text.arg(receiver_));
 }
 
 }  // namespace tidemark::ui

@@ -176,6 +176,7 @@ void WriteResultDialog::confirm(std::function<void()> go_on) {
   auto* box = new QMessageBox(QMessageBox::Question, windowTitle(), question,
                               QMessageBox::Yes | QMessageBox::No, this);
   box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextFormat(Qt::PlainText);
   box->setDefaultButton(QMessageBox::No);
   connect(box, &QMessageBox::finished, this, [go_on = std::move(go_on)](int answer) {
     if (answer == QMessageBox::Yes) go_on();

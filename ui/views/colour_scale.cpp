@@ -57,8 +57,9 @@ ColourScale scale_of_agreement(double runs) {
     return QColor(red, green, blue);
   };
   QList<QColor> colours;
-  constexpr int kSteps = 5;
-  for (int i = 0; i <= kSteps; ++i) colours << colour_at(static_cast<double>(i) / kSteps);
+  constexpr int kSteps = 20;
+  // From the share of one run to that of all.
+  for (int i = 0; i <= kSteps; ++i) colours << colour_at((1.0 + (runs - 1.0) * i / kSteps) / runs);
   return {colours, text(QT_TRANSLATE_NOOP("View", "Inside in so many runs")), QStringLiteral("1"),
           number_text(runs, 0)};
 }

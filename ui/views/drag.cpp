@@ -10,6 +10,7 @@
 #include "ui/views/mouse_scheme.h"
 #include "ui/views/outline_drag.h"
 #include "ui/views/probe_drags.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark::ui {
 namespace {
@@ -21,7 +22,7 @@ class WindowDrag : public Drag {
   WindowDrag(DragView view, const Pointer& pressed)
       : Drag(std::move(view)), from_(pressed.position), window_(display().settings().window) {
     const engine::SourceSummary& summary = proxy().summary();
-    per_pixel_ = std::max<double>(summary.high - summary.low, 1e-6) / 400.0;
+    per_pixel_ = span_between(summary.low, summary.high) / 400.0;
   }
 
   void move(const Pointer& pointer) override {
@@ -72,13 +73,18 @@ std::unique_ptr<Drag> window_drag(DragView view, const Pointer& pressed) {
   return std::make_unique<WindowDrag>(std::move(view), pressed);
 }
 
+bool is_for_slices(engine::Tool tool) {
+  return tool == engine::Tool::measure_distance || tool == engine::Tool::measure_angle ||
+         tool == engine::Tool::profile || tool == engine::Tool::examples;
+}
+
 std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer& pressed) {
   if (tool == engine::Tool::window) {
     const bool moves = mouse_scheme() == MouseScheme::itk_snap && pressed.patient_mm;
     return moves ? std::make_unique<CrosshairDrag>(std::move(view), pressed)
                  : window_drag(std::move(view), pressed);
   }
-  if (!pressed.patient_mm) return nullptr;
+  if (!pressed.patient_mm || (is_for_slices(tool) && !view.slab)) return nullptr;
   const bool other_button = pressed.button == Qt::RightButton;
   switch (tool) {
     case engine::Tool::window:
@@ -103,9 +109,9 @@ std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer&
     case engine::Tool::measure_angle:
       return measure_drag(engine::Measurement::Kind::angle, std::move(view), pressed);
     case engine::Tool::profile:
-      return view.slab ? std::make_unique<ProfileDrag>(std::move(view), pressed) : nullptr;
+      return std::make_unique<ProfileDrag>(std::move(view), pressed);
     case engine::Tool::examples:
-      return view.slab ? std::make_unique<ExampleDrag>(std::move(view), pressed) : nullptr;
+      return std::make_unique<ExampleDrag>(std::move(view), pressed);
     case engine::Tool::wall:
       return std::make_unique<ConstraintDrag>(std::move(view), pressed);
     case engine::Tool::label:

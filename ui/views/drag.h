@@ -44,6 +44,8 @@ class Drag {
   // press().
   [[nodiscard]] virtual bool lifted() { return false; }
   [[nodiscard]] virtual bool is_of_clicks() const { return false; }
+  // Whether it is given up between clicks when its view or its slice is left. Else the slice stays.
+  [[nodiscard]] virtual bool stays_behind() const { return false; }
   // Whether nothing has happened before its end, so that Escape gives it up while the button is down.
   [[nodiscard]] virtual bool acts_at_its_end() const { return false; }
   virtual void press(const Pointer& /*pointer*/) {}
@@ -60,6 +62,8 @@ class Drag {
   DragView view_;
 };
 
+// Whether a tool does nothing in 3D.
+[[nodiscard]] bool is_for_slices(engine::Tool tool);
 // The gesture of a button in any view (handbook/window.md). None where there is nothing to do, as for a
 // tool that needs a point of the patient and has none.
 std::unique_ptr<Drag> tool_drag(engine::Tool tool, DragView view, const Pointer& pressed);

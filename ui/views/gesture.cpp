@@ -24,6 +24,10 @@ void Gesture::keep_to(const Ground& ground) {
   if (waits_for_click() && !ground_.is_same_as(ground)) stop();
 }
 
+void Gesture::leave() {
+  if (waits_for_click() && drag_->stays_behind()) stop();
+}
+
 void Gesture::press(const Pointer& pointer) {
   if (pointer.button != first_button_) return;
   button_ = first_button_;

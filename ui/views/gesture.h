@@ -26,6 +26,8 @@ class Gesture {
   void stop() { drag_.reset(); }
   // One that is held ends with its slice. One of clicks that began elsewhere is given up.
   void keep_to(const Ground& ground);
+  // The mouse has left the view: one of clicks that stays behind is given up.
+  void leave();
   // A further click; another button than the first has none.
   void press(const Pointer& pointer);
   // The button is up. `counts`: the drag has its effect.
@@ -36,6 +38,8 @@ class Gesture {
   [[nodiscard]] Qt::MouseButton button() const { return button_; }  // that is held down
   [[nodiscard]] bool is_held() const { return button_ != Qt::NoButton; }
   [[nodiscard]] bool waits_for_click() const { return drag_ && !is_held(); }
+  // Whether the wheel and keys leave its slice alone.
+  [[nodiscard]] bool holds_slice() const { return drag_ && (is_held() || !drag_->stays_behind()); }
   // Whether keys are its own now.
   [[nodiscard]] bool takes(int key) const;
   // Whether the last one was of clicks. The second click of a double click asks once.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "imaging/regions/margin.h"
 #include "ui/views/mark_drags.h"
 
 namespace tidemark::ui {
@@ -17,9 +16,10 @@ Index3 voxel_at(const Geometry& grid, glm::dvec3 patient_mm) {
 
 LabelDrag::LabelDrag(DragView view, const Pointer& pressed)
     : LabelStroke(std::move(view), pressed),
-      is_ball_(!this->view().slab || pressed.modifiers.testFlag(Qt::ShiftModifier)),
       radius_mm_(display().settings().brush_mm),
       last_mm_(*pressed.patient_mm) {
+  if (!this->view().slab || pressed.modifiers.testFlag(Qt::ShiftModifier))
+    ball_ = imaging::ball_of(proxy().volume().geometry, radius_mm_);
   if (pressed.modifiers.testFlag(Qt::ControlModifier)) {
     const Volume& source = *proxy().source();
     const auto value = static_cast<double>(source.value(voxel_at(source.geometry, last_mm_)));
@@ -31,7 +31,7 @@ LabelDrag::LabelDrag(DragView view, const Pointer& pressed)
 
 void LabelDrag::dab(glm::dvec3 from_mm, glm::dvec3 to_mm) {
   const auto way = way_between(from_mm, to_mm, std::max(0.5 * radius_mm_, 0.1));
-  show(united(region(), is_ball_ ? balls(way) : discs(way)));
+  add(ball_ ? balls(way) : discs(way));
 }
 
 Region LabelDrag::discs(const std::vector<glm::dvec3>& way) const {
@@ -45,12 +45,23 @@ Region LabelDrag::discs(const std::vector<glm::dvec3>& way) const {
 
 Region LabelDrag::balls(const std::vector<glm::dvec3>& way) const {
   const Geometry& grid = proxy().volume().geometry;
-  Region centres;
+  std::vector<Index3> centres;
+  VoxelRange box{grid.size, Index3(0)};
   for (const glm::dvec3& place : way) {
-    const Index3 voxel = voxel_at(grid, place);
-    centres = united(centres, whole({voxel, voxel + Index3(1)}));
+    centres.push_back(voxel_at(grid, place));
+    box = {glm::min(box.low, centres.back()), glm::max(box.high, centres.back() + Index3(1))};
   }
-  return imaging::grown(centres, grid, std::min(radius_mm_, imaging::kWidestMargin)).value_or(centres);
+  Region region(box.widened(ball_->reach, grid.size));
+  for (const Index3& centre : centres) {
+    for (const imaging::BallRow& row : ball_->rows) {
+      const Index3 middle = centre + Index3(0, row.j, row.k);
+      if (!region.has_row(middle.y, middle.z)) continue;
+      const std::int64_t first = std::max<std::int64_t>(middle.x - row.half, 0);
+      const std::int64_t end = std::min(middle.x + row.half + 1, grid.size.x);
+      region.add_run({first, middle.y, middle.z}, end - first);
+    }
+  }
+  return region;
 }
 
 void LabelDrag::move(const Pointer& pointer) {

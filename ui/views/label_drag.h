@@ -1,6 +1,7 @@
 // The drag of the brush that paints a label.
 #pragma once
 
+#include "imaging/regions/ball.h"
 #include "ui/views/label_stroke.h"
 
 namespace tidemark::ui {
@@ -17,8 +18,8 @@ class LabelDrag : public LabelStroke {
   [[nodiscard]] Region discs(const std::vector<glm::dvec3>& way) const;
   [[nodiscard]] Region balls(const std::vector<glm::dvec3>& way) const;
 
-  bool is_ball_;
   double radius_mm_;
+  std::optional<imaging::Ball> ball_;  // none: discs
   glm::dvec3 last_mm_;
 };
 

@@ -36,6 +36,7 @@ Region LabelStroke::region_of(const std::vector<std::int64_t>& voxels) const {
 }
 
 Region LabelStroke::with_values(const Region& region) const {
+  if (!values_) return region;
   const Volume& source = *proxy().source();
   Region kept(region.bounds());
   region.for_each_run([&](Index3 voxel, std::int64_t length) {
@@ -47,8 +48,18 @@ Region LabelStroke::with_values(const Region& region) const {
   return kept;
 }
 
-void LabelStroke::show(Region region) {
-  region_ = values_ ? with_values(region) : std::move(region);
+void LabelStroke::show(const Region& region) {
+  region_ = with_values(region);
+  show_preview();
+}
+
+// Only values of voxels that are not in it yet are read.
+void LabelStroke::add(const Region& region) {
+  region_ = united(region_, with_values(difference(region, region_)));
+  show_preview();
+}
+
+void LabelStroke::show_preview() {
   auto drawn = std::make_shared<engine::LabelPreview>();
   drawn->from.geometry = proxy().volume().geometry;
   drawn->regions.push_back({label(), {}, region_});

@@ -19,9 +19,9 @@ class LabelStroke : public Drag {
   [[nodiscard]] QString text() const override;
 
  protected:
-  [[nodiscard]] const Region& region() const { return region_; }
-  // What the stroke is so far, but for voxels whose values it leaves out.
-  void show(Region region);
+  // What the stroke is so far, and what it takes in, but for voxels whose values it leaves out.
+  void show(const Region& region);
+  void add(const Region& region);
   // The stroke changes voxels with these values alone, from now on.
   void keep_to(const engine::ValueRange& values) { values_ = values; }
   // Of offsets in the volume's grid.
@@ -30,6 +30,7 @@ class LabelStroke : public Drag {
  private:
   [[nodiscard]] std::uint8_t label() const;  // 0: there is none yet
   [[nodiscard]] Region with_values(const Region& region) const;
+  void show_preview();
 
   document::Labels::Stroke what_;
   std::optional<engine::ValueRange> values_;

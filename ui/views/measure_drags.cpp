@@ -1,109 +1,90 @@
 #include "ui/views/measure_drags.h"
 
-#include <glm/geometric.hpp>
+#include <QLineF>
+#include <algorithm>
+
+#include "ui/views/overlay.h"
 
 namespace tidemark::ui {
 namespace {
 
-void set_last(engine::Display& display, const engine::Measurement& measurement) {
-  display.change([&](engine::DisplaySettings& settings) { settings.measurements.back() = measurement; });
-}
+// Logical pixels.
+constexpr double kGrabReach = 8.0;
+constexpr double kShortestLeg = 2.0;
 
-void remove_last(engine::Display& display) {
-  display.change([](engine::DisplaySettings& settings) { settings.measurements.pop_back(); });
-}
-
-constexpr double kGrabPixels = 8.0;
-
-// The point of a complete measurement that is under the mouse: that measurement and the point, by their
-// numbers.
+// The point of a measurement that is seen under the mouse: that measurement and the point, by their numbers.
 std::optional<std::pair<std::size_t, std::size_t>> point_under(const DragView& view, const Pointer& pressed) {
   std::optional<std::pair<std::size_t, std::size_t>> nearest;
-  double distance_mm = kGrabPixels * view.mm_per_pixel;
+  double reach = kGrabReach;
   const auto& all = view.proxy.display().settings().measurements;
   for (std::size_t n = 0; n < all.size(); ++n) {
-    for (std::size_t p = 0; all[n].complete() && p < all[n].points_mm.size(); ++p) {
-      const double away_mm = glm::distance(all[n].points_mm[p], *pressed.patient_mm);
-      if (away_mm > distance_mm) continue;
-      distance_mm = away_mm;
+    if (!is_seen_in(*view.slab, all[n])) continue;
+    for (std::size_t p = 0; p < all[n].points_mm.size(); ++p) {
+      const double away = QLineF(view.position_of(all[n].points_mm[p]), pressed.position).length();
+      if (away > reach) continue;
+      reach = away;
       nearest = {n, p};
     }
   }
   return nearest;
 }
 
-// An angle of which only the first leg is there.
-bool has_open_angle(const engine::Display& display) {
-  const auto& measurements = display.settings().measurements;
-  return !measurements.empty() && measurements.back().kind == engine::Measurement::Kind::angle &&
-         !measurements.back().complete();
+bool has_a_point_leg(const DragView& view, const engine::Measurement& measurement) {
+  const auto& points = measurement.points_mm;
+  const auto is_point = [&view](const glm::dvec3& from, const glm::dvec3& to) {
+    return QLineF(view.position_of(from), view.position_of(to)).length() < kShortestLeg;
+  };
+  return std::ranges::adjacent_find(points, is_point) != points.end();
 }
 
 }  // namespace
 
 std::unique_ptr<Drag> measure_drag(engine::Measurement::Kind kind, DragView view, const Pointer& pressed) {
-  const bool is_angle = kind == engine::Measurement::Kind::angle;
-  const bool goes_on = is_angle && has_open_angle(view.proxy.display());
-  if (const auto point = point_under(view, pressed); point && !goes_on)
+  if (const auto point = point_under(view, pressed))
     return std::make_unique<PointDrag>(std::move(view), point->first, point->second);
-  if (is_angle) return std::make_unique<AngleDrag>(std::move(view), pressed);
-  return std::make_unique<DistanceDrag>(std::move(view), pressed);
+  return std::make_unique<MeasureDrag>(kind, std::move(view), pressed);
+}
+
+bool PointDrag::is_there() const {
+  const auto& all = display().settings().measurements;
+  return measurement_ < all.size() && point_ < all[measurement_].points_mm.size();
 }
 
 void PointDrag::move(const Pointer& pointer) {
-  if (!pointer.patient_mm || display().settings().measurements.size() <= measurement_) return;
+  if (!pointer.patient_mm || !is_there()) return;
   display().change([&](engine::DisplaySettings& settings) {
     settings.measurements[measurement_].points_mm[point_] = *pointer.patient_mm;
   });
 }
 
 void PointDrag::release() {
-  const auto& measurements = display().settings().measurements;
-  if (measurements.size() <= measurement_) return;
-  const engine::Measurement& moved = measurements[measurement_];
-  if (moved.kind != engine::Measurement::Kind::distance || moved.value() >= 2.0 * view().mm_per_pixel) return;
+  if (!is_there() || !has_a_point_leg(view(), display().settings().measurements[measurement_])) return;
   display().change([&](engine::DisplaySettings& settings) {
     settings.measurements.erase(settings.measurements.begin() + static_cast<std::ptrdiff_t>(measurement_));
   });
 }
 
-DistanceDrag::DistanceDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)) {
-  measurement_.points_mm = {*pressed.patient_mm, *pressed.patient_mm};
+MeasureDrag::MeasureDrag(engine::Measurement::Kind kind, DragView view, const Pointer& pressed)
+    : Drag(std::move(view)), measurement_{kind, {*pressed.patient_mm, *pressed.patient_mm}} {}
+
+void MeasureDrag::move(const Pointer& pointer) {
+  if (pointer.patient_mm) measurement_.points_mm.back() = *pointer.patient_mm;
+}
+
+// At the vertex of an angle: the second leg begins.
+bool MeasureDrag::lifted() {
+  if (measurement_.complete() || has_a_point_leg(view(), measurement_)) return false;
+  measurement_.points_mm.push_back(measurement_.points_mm.back());
+  return true;
+}
+
+void MeasureDrag::release() {
+  if (!measurement_.complete() || has_a_point_leg(view(), measurement_)) return;
   display().change([&](engine::DisplaySettings& settings) { settings.measurements.push_back(measurement_); });
 }
 
-void DistanceDrag::move(const Pointer& pointer) {
-  if (!pointer.patient_mm || display().settings().measurements.empty()) return;
-  measurement_.points_mm[1] = *pointer.patient_mm;
-  set_last(display(), measurement_);
-}
-
-void DistanceDrag::release() {
-  if (display().settings().measurements.empty()) return;
-  if (measurement_.value() < 2.0 * view().mm_per_pixel) remove_last(display());
-}
-
-AngleDrag::AngleDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)) {
-  second_leg_ = has_open_angle(display());
-  display().change([&](engine::DisplaySettings& settings) {
-    if (!second_leg_)
-      settings.measurements.push_back({engine::Measurement::Kind::angle, {*pressed.patient_mm}});
-    settings.measurements.back().points_mm.push_back(*pressed.patient_mm);
-  });
-}
-
-void AngleDrag::move(const Pointer& pointer) {
-  if (!pointer.patient_mm || display().settings().measurements.empty()) return;
-  engine::Measurement measurement = display().settings().measurements.back();
-  measurement.points_mm.back() = *pointer.patient_mm;
-  set_last(display(), measurement);
-}
-
-void AngleDrag::release() {
-  if (display().settings().measurements.empty()) return;
-  const auto& points = display().settings().measurements.back().points_mm;
-  const double leg_mm = glm::distance(points[points.size() - 1], points[points.size() - 2]);
-  if (leg_mm < 2.0 * view().mm_per_pixel) remove_last(display());
+void MeasureDrag::paint(QPainter& painter) const {
+  paint_measurement(painter, measurement_, view().position_of);
 }
 
 ProfileDrag::ProfileDrag(DragView view, const Pointer& pressed) : Drag(std::move(view)) {

@@ -5,10 +5,10 @@
 
 namespace tidemark::ui {
 
-// A new measurement; or, on a point of one that is there, the move of that point.
+// In a slice: a new measurement; or, on a point of one that is seen there, the move of that point.
 std::unique_ptr<Drag> measure_drag(engine::Measurement::Kind kind, DragView view, const Pointer& pressed);
 
-// A point of a measurement goes where it is dragged to. A distance that has no length any more goes.
+// A point of a measurement goes where it is dragged to. A measurement whose points are put together goes.
 class PointDrag : public Drag {
  public:
   PointDrag(DragView view, std::size_t measurement, std::size_t point)
@@ -17,30 +17,28 @@ class PointDrag : public Drag {
   void release() override;
 
  private:
+  [[nodiscard]] bool is_there() const;
+
   std::size_t measurement_;
   std::size_t point_;
 };
 
-// From one end to the other. A drag of no length leaves nothing.
-class DistanceDrag : public Drag {
+// A distance is one drag from end to end. An angle is one to the vertex, and another drag or a click to the
+// other end; between them its second leg follows the mouse. One that is not complete is in no list.
+class MeasureDrag : public Drag {
  public:
-  DistanceDrag(DragView view, const Pointer& pressed);
+  MeasureDrag(engine::Measurement::Kind kind, DragView view, const Pointer& pressed);
   void move(const Pointer& pointer) override;
+  [[nodiscard]] bool lifted() override;
+  [[nodiscard]] bool is_of_clicks() const override { return measurement_.points_mm.size() > 2; }
+  [[nodiscard]] bool stays_behind() const override { return true; }
+  [[nodiscard]] bool acts_at_its_end() const override { return true; }
+  void press(const Pointer& pointer) override { move(pointer); }
   void release() override;
+  void paint(QPainter& painter) const override;
 
  private:
   engine::Measurement measurement_;
-};
-
-// The first drag is one leg, ending in the vertex; the next one, begun anywhere, points to the other end.
-class AngleDrag : public Drag {
- public:
-  AngleDrag(DragView view, const Pointer& pressed);
-  void move(const Pointer& pointer) override;
-  void release() override;
-
- private:
-  bool second_leg_ = false;
 };
 
 // The line along which values are plotted. A click takes it away.

@@ -3,7 +3,6 @@
 #include <QCoreApplication>
 #include <QFontMetricsF>
 #include <algorithm>
-#include <cmath>
 
 #include "renderer/annotation.h"
 #include "ui/widgets/number_text.h"
@@ -89,40 +88,43 @@ void paint_crosshair(QPainter& painter, QSizeF size, QPointF at) {
 
 QString text_of(const engine::Measurement& measurement) {
   if (measurement.kind == engine::Measurement::Kind::distance) {
-    return QCoreApplication::translate("View", "%1 mm").arg(number_text(measurement.value(), 1));
+    return QCoreApplication::translate("View", "%1 mm").arg(size_text(measurement.value(), 1));
   }
   return QCoreApplication::translate("View", "%1°").arg(number_text(measurement.value(), 1));
 }
 
+bool is_seen_in(const engine::SliceSlab& slice, const engine::Measurement& measurement) {
+  return std::ranges::all_of(measurement.points_mm,
+                             [&slice](const glm::dvec3& point) { return slice.is_near(point); });
+}
+
+void paint_measurement(QPainter& painter, const engine::Measurement& measurement,
+                       const std::function<QPointF(glm::dvec3)>& position_of) {
+  const QColor colour(140, 230, 160);
+  QPolygonF line;
+  for (const glm::dvec3& point : measurement.points_mm) line << position_of(point);
+  paint_line(painter, line, colour);
+  painter.setBrush(colour);
+  for (const QPointF& end : line) painter.drawEllipse(end, 2.5, 2.5);
+  if (!measurement.complete()) return;
+  const QPointF at = measurement.kind == engine::Measurement::Kind::angle ? line[1] : line.last();
+  paint_text(painter, QRectF(at + QPointF(8, -18), QSizeF(120, 16)), Qt::AlignLeft | Qt::AlignVCenter,
+             text_of(measurement));
+}
+
 void paint_measurements(QPainter& painter, const std::vector<engine::Measurement>& measurements,
-                        const SliceScreen& screen, double reach_mm) {
+                        const SliceScreen& screen, const engine::SliceSlab& slice) {
+  const auto position_of = [&screen](const glm::dvec3& point) { return screen.position_of(point); };
   for (const engine::Measurement& measurement : measurements) {
-    QPolygonF line;
-    bool near = true;
-    for (const glm::dvec3& point : measurement.points_mm) {
-      near = near && std::abs(screen.distance_mm(point)) <= reach_mm;
-      line << screen.position_of(point);
-    }
-    if (!near || line.isEmpty()) continue;
-    paint_line(painter, line, QColor(140, 230, 160));
-    for (const QPointF& end : line) {
-      painter.setBrush(QColor(140, 230, 160));
-      painter.drawEllipse(end, 2.5, 2.5);
-    }
-    if (!measurement.complete()) continue;
-    const QPointF at = measurement.kind == engine::Measurement::Kind::angle ? line[1] : line.last();
-    paint_text(painter, QRectF(at + QPointF(8, -18), QSizeF(120, 16)), Qt::AlignLeft | Qt::AlignVCenter,
-               text_of(measurement));
+    if (is_seen_in(slice, measurement)) paint_measurement(painter, measurement, position_of);
   }
 }
 
 void paint_profile(QPainter& painter, const engine::Measurement& line, const SliceScreen& screen,
-                   double reach_mm) {
+                   const engine::SliceSlab& slice) {
+  if (!is_seen_in(slice, line)) return;
   constexpr double kArrow = 9.0;
   const QColor colour(255, 176, 96);
-  for (const glm::dvec3& point : line.points_mm) {
-    if (std::abs(screen.distance_mm(point)) > reach_mm) return;
-  }
   const QLineF way(screen.position_of(line.points_mm[0]), screen.position_of(line.points_mm[1]));
   if (way.length() < 1.0) return;
   paint_line(painter, {way.p1(), way.p2()}, colour);

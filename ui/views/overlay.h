@@ -7,9 +7,11 @@
 #include <QPolygonF>
 #include <QString>
 #include <QStringList>
+#include <functional>
 
 #include "core/geometry.h"
 #include "engine/measurement.h"
+#include "engine/slice_slab.h"
 #include "engine/study_loader.h"
 #include "renderer/camera.h"
 #include "ui/views/view_geometry.h"
@@ -39,13 +41,18 @@ void paint_orientation(QPainter& painter, QSizeF size, glm::dvec3 right, glm::dv
 void paint_scale_bar(QPainter& painter, QSizeF size, double mm_per_pixel);
 // With a gap in the middle.
 void paint_crosshair(QPainter& painter, QSizeF size, QPointF at);
-// Measurements whose points are near the slice; `reach_mm` is how far in front or behind.
+// Whether all its points are in the slice.
+[[nodiscard]] bool is_seen_in(const engine::SliceSlab& slice, const engine::Measurement& measurement);
+// `position_of`: of a point of the patient.
+void paint_measurement(QPainter& painter, const engine::Measurement& measurement,
+                       const std::function<QPointF(glm::dvec3)>& position_of);
+// Those that are seen in the slice.
 void paint_measurements(QPainter& painter, const std::vector<engine::Measurement>& measurements,
-                        const SliceScreen& screen, double reach_mm);
+                        const SliceScreen& screen, const engine::SliceSlab& slice);
 QString text_of(const engine::Measurement& measurement);
 // The line along which values are plotted, with a ring at its beginning and an arrow at its end; likewise.
 void paint_profile(QPainter& painter, const engine::Measurement& line, const SliceScreen& screen,
-                   double reach_mm);
+                   const engine::SliceSlab& slice);
 
 // Lines in a corner, those at the top cut short where they would meet the ones of the other corner.
 void paint_corner(QPainter& painter, QSizeF size, Qt::Alignment corner, const QStringList& lines);

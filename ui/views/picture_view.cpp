@@ -64,15 +64,19 @@ bool is_in_active_window(const QWidget& view) {
 
 }  // namespace
 
-bool PictureView::shows_truth_error() const {
-  return settings().truth_error && proxy().truth() && !display().spread();
+bool PictureView::shows_distances() const {
+  const engine::SurfaceMap shown = proxy().state().surface_map;
+  if (shown != proxy().wanted_surface_map()) return false;
+  return shown != engine::SurfaceMap::none || settings().change;
 }
 
 std::optional<ColourScale> PictureView::scale_of_distances() const {
-  if (shows_truth_error()) return scale_of_truth_error(engine::distance_range_mm(proxy().volume().geometry));
-  if (display().spread()) return scale_of_spread(engine::distance_range_mm(proxy().volume().geometry));
-  const auto& limit = proxy().state().limit;
-  return limit && settings().change ? std::optional(scale_of_change(limit->within_mm())) : std::nullopt;
+  if (!shows_distances()) return std::nullopt;
+  const double range_mm = engine::distance_range_mm(proxy().volume().geometry);
+  const engine::CaseState& state = proxy().state();
+  if (state.surface_map == engine::SurfaceMap::truth_error) return scale_of_truth_error(range_mm);
+  if (state.surface_map == engine::SurfaceMap::spread) return scale_of_spread(range_mm);
+  return state.limit ? std::optional(scale_of_change(state.limit->within_mm())) : std::nullopt;
 }
 
 PictureView::PictureView(engine::CaseProxy& proxy, QWidget* parent)
@@ -89,7 +93,7 @@ PictureView::PictureView(engine::CaseProxy& proxy, QWidget* parent)
   connect(&display(), &engine::Display::changed, this, &PictureView::follow_display);
   connect(&display(), &engine::Display::pointer_moved, this, &PictureView::paint_again);
   connect(&proxy.balance(), &engine::CaseBalance::changed, this, &PictureView::paint_again);
-  connect(&proxy, &engine::CaseProxy::state_changed, this, &PictureView::follow_forces);
+  connect(&proxy, &engine::CaseProxy::state_changed, this, &PictureView::follow_state);
   connect(&forces_, &engine::ForceSampler::answered, this, &PictureView::paint_again);
   follow_display();
 }
@@ -150,6 +154,18 @@ void PictureView::follow_display() {
   paint_again();
 }
 
+// Pictures of the surface are drawn anew without being asked for; what else is seen of the state is not.
+void PictureView::follow_state() {
+  const engine::CaseState& state = proxy_.state();
+  const bool has_other_map = std::exchange(surface_map_, state.surface_map) != state.surface_map;
+  const bool has_other_speed = std::exchange(lacks_speed_, state.lacks_speed) != state.lacks_speed;
+  if (has_other_map || has_other_speed) {
+    ask();
+    paint_again();
+  }
+  follow_forces();
+}
+
 // Painting.
 
 void PictureView::paint_again() {
@@ -204,6 +220,11 @@ void PictureView::paint_study(QPainter& painter, const QString& note) const {
   }
   if (!note.isEmpty()) upper_right << note;
   paint_corner(painter, size(), Qt::AlignRight | Qt::AlignTop, upper_right);
+}
+
+void PictureView::paint_reason(QPainter& painter, const QString& reason) const {
+  const QRectF middle(0.0, 0.0, width(), 0.8 * height());
+  paint_text(painter, middle, Qt::AlignHCenter | Qt::AlignBottom | Qt::TextWordWrap, reason);
 }
 
 std::optional<PictureView::Ring> PictureView::ring() const {
@@ -407,6 +428,7 @@ void PictureView::mouseDoubleClickEvent(QMouseEvent* event) {
 void PictureView::leaveEvent(QEvent* event) {
   QWidget::leaveEvent(event);
   explaining_ = false;  // a search that failed has no answer
+  gesture_.leave();
   display().set_pointer(std::nullopt);
 }
 
@@ -425,7 +447,7 @@ void PictureView::wheelEvent(QWheelEvent* event) {
   wheel_remainder_ -= clicks * kWheelClick;
   event->accept();
   if (clicks == 0) return;
-  if (gesture_.drag() && slab() && !event->modifiers().testFlag(Qt::ControlModifier))
+  if (gesture_.holds_slice() && slab() && !event->modifiers().testFlag(Qt::ControlModifier))
     return;  // its slice stays
   if (event->modifiers().testFlag(Qt::ControlModifier)) {
     zoom(std::pow(kZoomStep, clicks), event->position());
@@ -444,7 +466,8 @@ void PictureView::wheelEvent(QWheelEvent* event) {
 }
 
 void PictureView::keyPressEvent(QKeyEvent* event) {
-  if (gesture_.waits_for_click() || gesture_.takes(event->key())) {
+  const bool waits = gesture_.waits_for_click() && gesture_.holds_slice();
+  if (waits || gesture_.takes(event->key())) {
     gesture_.press_key(event->key());
     return paint_again();
   }

@@ -67,10 +67,10 @@ class PictureView : public QWidget {
  protected:
   [[nodiscard]] engine::Display& display() const { return proxy_.display(); }
   [[nodiscard]] const engine::DisplaySettings& settings() const { return proxy_.display().settings(); }
-  // Whether colours say how far the surface is from the truth.
-  [[nodiscard]] bool shows_truth_error() const;
-  // Of colours that say how far the surface is from the truth, or from where it began, or how far apart the
-  // runs of a sweep end there (in 3D alone); none: they do not.
+  // Whether colours may say how far the surface is from the truth, or from where it began, or how far apart
+  // the runs of a sweep end there (in 3D alone). While the map of one is made, none of them does.
+  [[nodiscard]] bool shows_distances() const;
+  // Of these colours; none: there are none.
   [[nodiscard]] std::optional<ColourScale> scale_of_distances() const;
   [[nodiscard]] DragView drag_view();
 
@@ -82,6 +82,8 @@ class PictureView : public QWidget {
   // The corners at the top: patient and study, series, and a note of the view. A low view has room for the
   // name and the note only.
   void paint_study(QPainter& painter, const QString& note = {}) const;
+  // A sentence in the lower middle: why something is not shown.
+  void paint_reason(QPainter& painter, const QString& reason) const;
   // Drags that are about the view itself; `first_choice`: the left button of a tool that has nothing to do
   // here.
   virtual std::unique_ptr<Drag> navigation_drag(const Pointer& pressed) = 0;
@@ -119,6 +121,7 @@ class PictureView : public QWidget {
  private:
   [[nodiscard]] bool is_seen() const { return isVisible() && !covered_; }
   void follow_display();
+  void follow_state();
   void follow_forces();
   void explain_at(QPointF position);
   void paint_balance(QPainter& painter) const;
@@ -138,6 +141,9 @@ class PictureView : public QWidget {
   QPointF mouse_;
   QPointF pressed_at_;
   bool may_be_click_ = false;  // the right button is down, and the mouse has not moved yet
+  // Of the last state.
+  engine::SurfaceMap surface_map_ = engine::SurfaceMap::none;
+  bool lacks_speed_ = false;
   engine::ForceSampler forces_;
   bool explaining_ = false;      // a place is being looked for
   bool brings_forward_ = false;  // the press that follows makes the case active

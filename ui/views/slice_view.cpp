@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "ui/views/driven_by.h"
 #include "ui/views/mark_drags.h"
 #include "ui/views/overlay.h"
 #include "ui/widgets/number_text.h"
@@ -115,12 +116,6 @@ QString SliceViewWidget::title() const {
   return plane;
 }
 
-void SliceViewWidget::set_plane(SlicePlane plane) {
-  plane_ = plane;
-  setAccessibleName(title());
-  emit display().changed();
-}
-
 renderer::SliceOrientation SliceViewWidget::radiological() const {
   if (plane_ == SlicePlane::coronal) return renderer::kCoronal;
   if (plane_ == SlicePlane::sagittal) return renderer::kSagittal;
@@ -142,12 +137,13 @@ renderer::SliceView SliceViewWidget::slice() const {
   const glm::dvec3 shift = s.slice_centre_mm - renderer::middle_of(proxy().volume().geometry);
   view.pan_mm = {glm::dot(shift, view.orientation.right), glm::dot(shift, view.orientation.up)};
   view.content = content_;
-  view.term = s.speed_term;
+  // Without a function the map of the doubt is the dimmed slice.
+  view.term = shows_no_speed() ? renderer::SpeedTerm::doubt : s.speed_term;
   view.window = s.window;
   view.nearest = s.nearest;
   view.surface = s.outline;
   view.contours = s.contours;
-  view.change = (s.change && !display().spread()) || shows_truth_error();
+  view.change = shows_distances() && !display().spread();
   view.line_pixels = s.line_pixels * devicePixelRatioF();
   view.label_opacity = s.label_opacity;
   return view;
@@ -192,7 +188,7 @@ std::optional<glm::dvec3> SliceViewWidget::patient_at(QPointF position) const {
 }
 
 bool SliceViewWidget::shows(glm::dvec3 place_mm, glm::dvec3 /*outward*/) const {
-  return std::abs(screen().distance_mm(place_mm)) <= 0.5 * place().thickness_mm + 1e-6;
+  return slab()->is_near(place_mm);
 }
 
 std::optional<solver::PlaneSlab> SliceViewWidget::force_slab() const {
@@ -286,9 +282,8 @@ void SliceViewWidget::paint_overlay(QPainter& painter) {
   paint_preview(painter, on_screen);
   paint_marks(painter, on_screen);
   if (settings().crosshair) paint_crosshair(painter, size(), on_screen.position_of(settings().cursor_mm));
-  paint_measurements(painter, settings().measurements, on_screen, 0.5 * place().thickness_mm + 1e-6);
-  if (settings().profile)
-    paint_profile(painter, *settings().profile, on_screen, 0.5 * place().thickness_mm + 1e-6);
+  paint_measurements(painter, settings().measurements, on_screen, *slab());
+  if (settings().profile) paint_profile(painter, *settings().profile, on_screen, *slab());
   paint_orientation(painter, size(), o.right, o.up, proxy().volume().geometry.oriented);
   paint_scale_bar(painter, size(), on_screen.mm_per_pixel());
   paint_corners(painter);
@@ -302,13 +297,19 @@ void SliceViewWidget::paint_legend(QPainter& painter) const {
   const bool has_distances = content_ == renderer::SliceContent::source && !display().spread();
   if (const auto scale = scale_of_distances(); scale && has_distances)
     return paint_colour_scale(painter, size(), *scale);
-  if (content_ != renderer::SliceContent::speed || settings().speed_term != renderer::SpeedTerm::doubt)
-    return;
+  if (content_ != renderer::SliceContent::speed) return;
+  if (shows_no_speed()) return paint_reason(painter, lacking_speed_text(proxy().state()));
+  if (settings().speed_term != renderer::SpeedTerm::doubt) return;
   const auto& speed = proxy().state().speed;
   if (speed && speed->has_doubt()) return paint_colour_scale(painter, size(), scale_of_doubt());
-  const QRectF middle(0.0, 0.0, width(), 0.8 * height());
-  paint_text(painter, middle, Qt::AlignHCenter | Qt::AlignBottom | Qt::TextWordWrap,
-             tr("Only a speed function that learns from examples has a doubt."));
+  paint_reason(painter, tr("Only a speed function that learns from examples has a doubt."));
+}
+
+// Curvature and rescaling are known all the same.
+bool SliceViewWidget::shows_no_speed() const {
+  const renderer::SpeedTerm term = settings().speed_term;
+  return content_ == renderer::SliceContent::speed && proxy().state().lacks_speed &&
+         term != renderer::SpeedTerm::curvature && term != renderer::SpeedTerm::rescaling;
 }
 
 void SliceViewWidget::paint_swipe_line(QPainter& painter) const {
@@ -331,6 +332,13 @@ void SliceViewWidget::paint_compared(QPainter& painter, const SliceScreen& on_sc
   if (content_ == renderer::SliceContent::pages) return;
   compared_outline_.paint(painter, proxy().comparison().phi(), orientation(), settings().cursor_mm, on_screen,
                           kComparedColour);
+}
+
+QString SliceViewWidget::compared_text() const {
+  const auto compared = proxy().comparison().state();
+  if (!compared || content_ == renderer::SliceContent::pages) return {};
+  const auto* row = engine::find_row(*proxy().state().history, *compared);
+  return row ? tr("Turquoise: step %1").arg(row->state.steering.step) : QString();
 }
 
 void SliceViewWidget::paint_preview(QPainter& painter, const SliceScreen& on_screen) {
@@ -382,10 +390,7 @@ void SliceViewWidget::paint_corners(QPainter& painter) const {
                  .arg(number_text(s.window.width, decimals), number_text(s.window.centre, decimals));
   }
   if (content_ == renderer::SliceContent::speed) lines << term_name(s.speed_term);
-  if (const auto compared = proxy().comparison().state()) {
-    if (const auto* row = engine::find_row(*proxy().state().history, *compared))
-      lines << tr("Turquoise: step %1").arg(row->state.steering.step);
-  }
+  if (const QString compared = compared_text(); !compared.isEmpty()) lines << compared;
   lines << tr("Zoom %1 %").arg(number_text(100.0 * s.slice_zoom, 0));
   paint_corner(painter, size(), Qt::AlignLeft | Qt::AlignBottom, lines);
 }

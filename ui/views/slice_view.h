@@ -20,7 +20,6 @@ class SliceViewWidget : public PictureView {
   [[nodiscard]] QString title() const override;
   [[nodiscard]] SlicePlane plane() const { return plane_; }
   [[nodiscard]] renderer::SliceContent content() const { return content_; }
-  void set_plane(SlicePlane plane);
 
   [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const override;
   [[nodiscard]] std::optional<glm::dvec3> patient_at(QPointF position) const override;
@@ -54,6 +53,7 @@ class SliceViewWidget : public PictureView {
   // As it is seen: the user may want left and right the other way round, which turns the normal round.
   [[nodiscard]] renderer::SliceOrientation orientation() const;
   [[nodiscard]] renderer::SliceView slice() const;  // without further images
+  [[nodiscard]] bool shows_no_speed() const;        // where its map is wanted, for want of a function
   // With the further images as far as they are there. While those of the present place are not, slice and
   // images stay where they were: neither is seen over the other's place.
   [[nodiscard]] renderer::SliceView fused_slice() const;
@@ -62,6 +62,7 @@ class SliceViewWidget : public PictureView {
   void paint_swipe_line(QPainter& painter) const;
   void paint_truth(QPainter& painter, const SliceScreen& on_screen);
   void paint_compared(QPainter& painter, const SliceScreen& on_screen);
+  [[nodiscard]] QString compared_text() const;  // what its outline is of; empty: there is none
   void paint_preview(QPainter& painter, const SliceScreen& on_screen);
   void paint_corners(QPainter& painter) const;
   void paint_legend(QPainter& painter) const;  // of what colours mean
@@ -69,7 +70,7 @@ class SliceViewWidget : public PictureView {
   void paint_marks(QPainter& painter, const SliceScreen& on_screen);
   void follow_marks();
 
-  SlicePlane plane_;
+  const SlicePlane plane_;
   renderer::SliceContent content_;
   SliceOutline<Mask> truth_outline_;
   SliceOutline<solver::Field> compared_outline_;

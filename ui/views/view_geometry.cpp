@@ -37,10 +37,6 @@ QPointF SliceScreen::position_of(glm::dvec3 patient_mm) const {
   return position_on(size_, mm_per_pixel_, glm::dot(d, orientation_.right), glm::dot(d, orientation_.up));
 }
 
-double SliceScreen::distance_mm(glm::dvec3 patient_mm) const {
-  return glm::dot(patient_mm - centre_mm_, orientation_.into());
-}
-
 renderer::SliceOrientation acquired_plane(const Geometry& geometry) {
   const renderer::SliceOrientation standard = renderer::oblique(geometry.direction[2]);
   const glm::dvec3 row = geometry.direction[0];

@@ -19,7 +19,6 @@ class SliceScreen {
 
   [[nodiscard]] glm::dvec3 patient_at(QPointF position) const;
   [[nodiscard]] QPointF position_of(glm::dvec3 patient_mm) const;  // of its foot on the slice
-  [[nodiscard]] double distance_mm(glm::dvec3 patient_mm) const;   // in front of the slice, < 0, or behind
   [[nodiscard]] double mm_per_pixel() const { return mm_per_pixel_; }
 
  private:

@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/label_finisher.h"
+#include "ui/views/driven_by.h"
 #include "ui/views/next_step.h"
 #include "ui/views/orientation_cube.h"
 #include "ui/views/overlay.h"
@@ -111,8 +112,8 @@ renderer::VolumeView VolumeViewWidget::view() const {
   view.surface = s.surface;
   view.surface_colour = s.surface_colour;
   const bool shows_spread = display().spread() != nullptr;
-  view.colouring = shows_spread ? renderer::SurfaceColouring::plain : s.colouring;
-  view.change = s.change || shows_truth_error() || shows_spread;
+  view.colouring = shows_spread || shows_no_speed() ? renderer::SurfaceColouring::plain : s.colouring;
+  view.change = shows_distances();
   view.region = s.region;
   view.label_opacity = s.label_opacity;
   view.lighting.occlusion = s.occlusion;
@@ -123,6 +124,13 @@ renderer::VolumeView VolumeViewWidget::view() const {
     if (!s.show_source) view.source->source.clear();
   }
   return view;
+}
+
+// Curvature and rescaling are known all the same.
+bool VolumeViewWidget::shows_no_speed() const {
+  const renderer::SurfaceColouring colouring = settings().colouring;
+  return proxy().state().lacks_speed && (colouring == renderer::SurfaceColouring::total_speed ||
+                                         colouring == renderer::SurfaceColouring::data);
 }
 
 VolumeScreen VolumeViewWidget::screen() const {
@@ -160,9 +168,8 @@ std::unique_ptr<Drag> VolumeViewWidget::begin_drag(const Pointer& pressed) {
     }
   }
   const engine::Tool tool = settings().tool;
-  const bool only_in_slices =
-      tool == engine::Tool::window || tool == engine::Tool::examples || tool == engine::Tool::profile;
-  const bool turns = only_in_slices && !pressed.modifiers.testFlag(Qt::AltModifier);
+  const bool has_no_work = tool == engine::Tool::window || is_for_slices(tool);
+  const bool turns = has_no_work && !pressed.modifiers.testFlag(Qt::AltModifier);
   if (turns) return navigation_drag(pressed);
   if (!pressed.patient_mm && pressed.button != Qt::MiddleButton) {
     const bool erases = pressed.button == Qt::RightButton;
@@ -283,6 +290,7 @@ void VolumeViewWidget::paint_overlay(QPainter& painter) {
   const bool is_coloured = shown.surface && shown.colouring == renderer::SurfaceColouring::plain;
   if (const auto scale = scale_of_distances(); scale && is_coloured)
     paint_colour_scale(painter, size(), *scale);
+  if (shows_no_speed()) paint_reason(painter, lacking_speed_text(proxy().state()));
   if (!settings().clip_on) return;
   const ClipHandles on_screen = handles();
   on_screen.paint(painter, on_screen.grip_at(mapFromGlobal(QCursor::pos())));

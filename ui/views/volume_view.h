@@ -44,6 +44,7 @@ class VolumeViewWidget : public PictureView {
 
  private:
   [[nodiscard]] VolumeScreen screen() const;
+  [[nodiscard]] bool shows_no_speed() const;  // where its colours are wanted, for want of a function
   void pick_and_begin(const Pointer& pressed);
   // The place on the surface under a position; none where there is no surface.
   void pick(QPointF position, std::function<void(std::optional<glm::dvec3>)> answer);

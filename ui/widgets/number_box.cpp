@@ -23,6 +23,11 @@ bool is_point(QChar c) {
   return c == u'.' || c == u',' || c == kArabicDecimalPoint;
 }
 
+// What says in which direction a sign is written: languages from right to left have it before their minus.
+bool is_direction_mark(QChar c) {
+  return c == QChar(0x200E) || c == QChar(0x200F) || c == QChar(0x061C);
+}
+
 // What other programs put between groups of digits.
 bool is_group_separator(QChar c) {
   return c.isSpace() || c == u'\'' || c == u'’';
@@ -45,7 +50,7 @@ std::optional<QString> in_ascii(const QString& typed) {
       plain += u'-';
     } else if (c == u'+' || c == u'e' || c == u'E' || is_group_separator(c)) {
       plain += c;
-    } else {
+    } else if (!is_direction_mark(c)) {
       return std::nullopt;
     }
   }
@@ -106,6 +111,9 @@ NumberBox::Typed NumberBox::read(const QString& typed) const {
   if (value < minimum() || value > maximum()) return {Reading::out_of_range, value};
   const double held = rounded(value, decimals());
   if (std::abs(held - value) > 1e-6 * std::pow(10.0, -decimals())) return {Reading::too_fine, value};
+  // As many digits as a group has, in a box that keeps fewer behind the point: 1000 or 1, nobody knows.
+  static const QRegularExpression grouped(QStringLiteral("^[-+]?[1-9][0-9]{0,2}\\.[0-9]{3}$"));
+  if (decimals() < 3 && grouped.match(*plain).hasMatch()) return {Reading::no_number};
   return {Reading::number, held};
 }
 
@@ -121,9 +129,9 @@ QString NumberBox::problem() const {
     case Reading::no_number:
       return tr("“%1” is no number. Digits are not grouped: 1234.5 or 1234,5").arg(typed);
     case Reading::too_fine:
-      return decimals() == 0
-                 ? tr("%1 is no whole number").arg(typed)
-                 : tr("%1 has too many digits behind the point: %2 can be kept").arg(typed).arg(decimals());
+      return decimals() == 0 ? tr("%1 is no whole number").arg(typed)
+                             : tr("%1 has too many digits behind the point: %2 can be kept")
+                                   .arg(typed, QString::number(decimals()));
     case Reading::out_of_range:
       if (!ended && can_become_larger_only(now.value)) return {};
       return tr("%1 is not within %2 to %3")
@@ -182,7 +190,9 @@ bool NumberBox::event(QEvent* event) {
 
 void NumberBox::paintEvent(QPaintEvent* event) {
   QDoubleSpinBox::paintEvent(event);
-  if (problem().isEmpty()) return;
+  const QString why = problem();
+  if (why != accessibleDescription()) setAccessibleDescription(why);
+  if (why.isEmpty()) return;
   QPainter painter(this);
   painter.setPen(QPen(problem_colour(palette()), 2.0));
   painter.drawRect(rect().adjusted(1, 1, -1, -1));

@@ -6,9 +6,10 @@
 namespace tidemark::ui {
 
 // A point and a comma both stand before the digits behind the point, whatever the user's language; digits are
-// not grouped. An exponent and the box's own unit may follow. What is no number, or none that the box can
-// hold as it was typed, changes nothing: it stays, marked, until something else is typed or Escape brings the
-// value back. While nothing is typed a letter is the window's, as in its views.
+// not grouped, and 1.000 is no number where fewer than three are kept behind the point. An exponent and the
+// box's own unit may follow. What is no number, or none that the box can hold as it was typed, changes
+// nothing: it stays, marked, until something else is typed or Escape brings the value back. The mark says why
+// in the tool tip and to screen readers. While nothing is typed a letter is the window's, as in its views.
 class NumberBox : public QDoubleSpinBox {
   Q_OBJECT
  public:

@@ -4,10 +4,15 @@
 #include <cmath>
 
 namespace tidemark::ui {
+namespace {
+
+constexpr int kMostDecimals = 15;
+
+}  // namespace
 
 int decimals_for(double span) {
   if (!(span > 0.0) || !std::isfinite(span)) return 0;
-  return std::clamp(static_cast<int>(std::ceil(2.5 - std::log10(span))), 0, 6);
+  return std::clamp(static_cast<int>(std::ceil(2.5 - std::log10(span))), 0, kMostDecimals);
 }
 
 int value_decimals(double span) {
@@ -19,6 +24,10 @@ double rounded(double value, int decimals) {
   return std::round(value * scale) / scale + 0.0;  // -0 + 0 is 0
 }
 
+double span_between(double low, double high) {
+  return high > low ? high - low : 1e-6;
+}
+
 QLocale number_locale() {
   QLocale locale;
   locale.setNumberOptions(locale.numberOptions() | QLocale::OmitGroupSeparator);
@@ -28,6 +37,16 @@ QLocale number_locale() {
 QString number_text(double value, int decimals, const QString& unit) {
   const QString number = number_locale().toString(rounded(value, decimals), 'f', decimals);
   return unit.isEmpty() ? number : number + QChar(QChar::Nbsp) + unit;
+}
+
+QString size_text(double size, int decimals, const QString& unit) {
+  const double magnitude = std::abs(size);
+  const int needed = magnitude > 0.0 ? 1 - static_cast<int>(std::floor(std::log10(magnitude))) : 0;
+  return number_text(size, std::clamp(needed, decimals, kMostDecimals), unit);
+}
+
+QString share_text(double share) {
+  return number_text(std::floor(1000.0 * share) / 10.0, 1, QStringLiteral("%"));
 }
 
 QString count_text(qint64 count) {

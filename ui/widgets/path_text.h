@@ -13,8 +13,9 @@ inline QString text_of(const std::filesystem::path& path) {
   return QString::fromStdString(path.native());
 }
 
+// Never throws, as conversions from UTF-16 do: half a surrogate pair becomes U+FFFD or "?".
 inline std::filesystem::path path_of(const QString& text) {
-  return text.toStdU16String();
+  return text.toStdString();
 }
 
 // Whether both are there and are one file, by whatever name.

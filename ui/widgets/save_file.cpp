@@ -2,10 +2,10 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QMessageBox>
 #include <QRegularExpression>
 
 #include "ui/settings.h"
+#include "ui/widgets/question.h"
 #include "ui/widgets/tr.h"
 
 namespace tidemark::ui {
@@ -33,8 +33,8 @@ QString ask_where_to_save(QWidget& parent, const QString& title, const QString& 
   const QString file = with_suffix(named, dialog.selectedNameFilter(), suffixes);
   // The dialog has asked about the name as it was typed.
   if (file != named && QFileInfo::exists(file) &&
-      QMessageBox::question(&parent, title, tr("%1 exists. Replace it?").arg(file),
-                            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes) {
+      ask(&parent, title, tr("%1 exists. Replace it?").arg(file), QMessageBox::Yes | QMessageBox::No,
+          QMessageBox::No) != QMessageBox::Yes) {
     return {};
   }
   settings::save_folder().set(QFileInfo(file).absolutePath());

@@ -43,7 +43,10 @@ SliderNumber::SliderNumber(QWidget* parent)
 }
 
 void SliderNumber::fit_number() {
-  number_->setFixedWidth(fontMetrics().horizontalAdvance(QStringLiteral("-0000.0 HU")) + kArrows);
+  const QString fine = QStringLiteral("-0.") + QString(number_->decimals(), u'0');
+  const QFontMetrics metrics = fontMetrics();
+  number_->setFixedWidth(kArrows + std::max(metrics.horizontalAdvance(QStringLiteral("-0000.0 HU")),
+                                            metrics.horizontalAdvance(fine)));
 }
 
 void SliderNumber::changeEvent(QEvent* event) {
@@ -67,6 +70,7 @@ void SliderNumber::set_decimals(int decimals) {
   const QSignalBlocker quiet(number_);
   number_->setDecimals(decimals);
   number_->setSingleStep(std::pow(10.0, -decimals));
+  fit_number();
 }
 
 void SliderNumber::set_step(double step) {

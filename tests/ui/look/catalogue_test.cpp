@@ -55,6 +55,19 @@ class CatalogueTest : public QObject {
     ui::use_language("en");
   }
 
+  // A word of two meanings has but one translation.
+  void the_first_and_the_second_are_called_so_in_all_heads_of_a_table() {
+    const auto said = [](const char* english) { return QCoreApplication::translate("A", english); };
+    for (const ui::Language& language : ui::languages()) {
+      ui::use_language(language.code);
+      for (const char* number : {"First", "Second"}) {
+        const QString with_unit = said(QByteArray(number).append(" (ml)"));
+        QVERIFY2(with_unit.startsWith(said(number) + ' '), qPrintable(said(number)));
+      }
+    }
+    ui::use_language("en");
+  }
+
   void each_part_of_a_start_is_said_in_the_language() {
     document::Start start;
     start.from = document::ThresholdStart{1.0, 2.0};

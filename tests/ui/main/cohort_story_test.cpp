@@ -101,6 +101,8 @@ class CohortStoryTest : public QObject {
   void a_changed_surface_is_not_left_without_a_question();
   void a_second_correction_is_not_left_without_a_question();
   void what_the_cohort_does_not_keep_stays_open();
+  void a_measurement_is_not_lost_with_the_surface_data();
+  void a_measurement_is_not_lost_with_the_surface();
   void it_stays_open_when_the_language_changes();
   void a_folder_that_is_no_cohort_is_refused();
 
@@ -365,6 +367,40 @@ void CohortStoryTest::what_the_cohort_does_not_keep_stays_open() {
   click_row(desktop, row_of(desktop, "berta"), true);
   QVERIFY(opens(desktop, "berta"));
   QVERIFY(desktop.window().cases().contains(clara));
+}
+
+void CohortStoryTest::a_measurement_is_not_lost_with_the_surface_data() {
+  QTest::addColumn<bool>("accepts");
+  QTest::newRow("accepted") << true;
+  QTest::newRow("discarded") << false;
+}
+void CohortStoryTest::a_measurement_is_not_lost_with_the_surface() {
+  QFETCH(bool, accepts);
+  Desktop desktop(story_executor(), {1382, 858});
+  desktop.window().open(balls_->path());
+  QVERIFY(Desktop::wait_for([&] { return panel(desktop) != nullptr; }));
+  click_row(desktop, row_of(desktop, "anna"), true);
+  QVERIFY(opens(desktop, "anna"));
+  ui::CaseWindow* const anna = desktop.window().active_case();
+  anna->proxy().display().change([](engine::DisplaySettings& settings) {
+    settings.measurements = {{engine::Measurement::Kind::distance, {glm::dvec3(0.0), glm::dvec3(5.0)}}};
+  });
+  const glm::dvec3 middle = anna->proxy().display().settings().cursor_mm;
+  anna->proxy().paint({middle + glm::dvec3(accepts ? 20.0 : -20.0, 0.0, 0.0), 5.0}, solver::Brush::add,
+                      engine::CaseProxy::new_gesture());
+  desktop.wait_until_idle();
+  QVERIFY(Desktop::wait_for([&] { return enabled(desktop, in_story_language("Accept the correction")); }));
+  if (accepts) {
+    desktop.press(Qt::Key_A, Qt::ShiftModifier);
+    QVERIFY(Desktop::wait_for([&] { return enabled(desktop, in_story_language("&Accept the case")); }));
+    desktop.wait_until_idle();
+    QVERIFY(desktop.state().modified);
+  } else {
+    Desktop::answer(QMessageBox::Discard);
+  }
+  click_row(desktop, row_of(desktop, "berta"), true);
+  QVERIFY(opens(desktop, "berta"));
+  QVERIFY(desktop.window().cases().contains(anna));
 }
 
 void CohortStoryTest::it_stays_open_when_the_language_changes() {

@@ -1,6 +1,8 @@
 // Copies of DICOM files without their patient, by the dialog.
+#include <QAbstractSpinBox>
 #include <QAction>
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDir>
 #include <QLineEdit>
 #include <QMessageBox>
@@ -81,6 +83,7 @@ class DeidentifyStoryTest : public QObject, private ResultsDesktop {
   void the_series_that_is_open_is_copied_without_its_patient();
   void what_is_left_out_of_a_folder_is_said();
   void nothing_is_overwritten();
+  void days_that_are_refused_move_no_date();
   void quitting_asks_while_copies_are_made();
 
  private:
@@ -189,6 +192,27 @@ void DeidentifyStoryTest::nothing_is_overwritten() {
   QVERIFY(!fs::exists(folder_ / "new"));
   QCOMPARE(bytes_of(folder_ / "new-changes.csv"), QByteArray("mine"));
   QCOMPARE(QDir(path("study")).entryList(), files);
+}
+
+void DeidentifyStoryTest::days_that_are_refused_move_no_date() {
+  ui::DeidentifyDialog& made = dialog();
+  type(called<QLineEdit>(made, "Copies to"), path("moved"));
+  called<QComboBox>(made, "Dates").setCurrentIndex(2);
+  auto& days = called<QAbstractSpinBox>(made, "Days");
+  const auto enter = [&](const char* text) {
+    days.setFocus();
+    days.selectAll();
+    QTest::keyClicks(&days, text);
+    QTest::keyClick(&days, Qt::Key_Return);
+  };
+  for (const char* refused : {"40000", "1 000", "1.000"}) {
+    enter(refused);
+    QVERIFY2(says(made, refused), refused);
+    QVERIFY(!made.working() && days.hasFocus());
+  }
+  QVERIFY(!fs::exists(folder_ / "moved"));
+  enter("200");
+  QVERIFY(Desktop::wait_for([&] { return says(made, "moved: files 16"); }, kPatience));
 }
 
 // The question comes while the work goes on, and the answer counts for what is unfinished then.

@@ -339,6 +339,13 @@ void Desktop::keep_picture(QWidget& dock) {
   QVERIFY(dock.grab().save(QStringLiteral("%1/panel-%2.png").arg(folder, dock.objectName())));
 }
 
+QLabel* find_text(QWidget& in, const QString& text) {
+  for (QLabel* label : in.findChildren<QLabel*>()) {
+    if (label->isVisible() && label->text() == text) return label;
+  }
+  return nullptr;
+}
+
 double difference(const QImage& a, const QImage& b) {
   if (a.size() != b.size()) return 1.0;
   constexpr int kLittle = 12;

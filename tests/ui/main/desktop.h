@@ -5,6 +5,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QImage>
+#include <QLabel>
 #include <QMessageBox>
 #include <QTest>
 #include <functional>
@@ -128,6 +129,8 @@ Widget* find_seen(QWidget& in, const QString& name) {
   }
   return nullptr;
 }
+// A label that is seen, by its text. Null: there is none.
+QLabel* find_text(QWidget& in, const QString& text);
 // Ends the test when there is none.
 template <class Widget>
 Widget* seen(QWidget& in, const QString& name) {

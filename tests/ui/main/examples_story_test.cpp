@@ -48,8 +48,6 @@ class ExamplesStoryTest : public QObject {
   }
   // Pixels of the overlay in which one colour leads, by so much.
   static int orange_pixels(const ui::PictureView& view);
-  template <class Widget>
-  static Widget* seen(QWidget& in, const QString& text);
 
   TemporaryFolder folder_;
   QString file_;
@@ -96,14 +94,6 @@ int ExamplesStoryTest::orange_pixels(const ui::PictureView& view) {
     }
   }
   return count;
-}
-
-template <class Widget>
-Widget* ExamplesStoryTest::seen(QWidget& in, const QString& text) {
-  for (Widget* widget : in.findChildren<Widget*>()) {
-    if (widget->isVisible() && (widget->text() == text || widget->accessibleName() == text)) return widget;
-  }
-  return nullptr;
 }
 
 void ExamplesStoryTest::strokes_are_painted_shown_and_undone() {
@@ -178,13 +168,13 @@ void ExamplesStoryTest::strokes_are_painted_shown_and_undone() {
   desktop.wait_until_idle();
   auto* panel = desktop.window().findChild<ui::ExampleControls*>();
   QVERIFY(panel && panel->isVisible());
-  auto* clear = seen<QAbstractButton>(*panel, "Clear strokes");
+  auto* clear = find_seen<QAbstractButton>(*panel, "Clear strokes");
   QVERIFY(clear && clear->isEnabled());
   QTest::mouseClick(clear, Qt::LeftButton);
   desktop.wait_until_idle();
   QVERIFY(!drive(desktop).strokes);
   QVERIFY(is_driven_by(desktop, "tent"));
-  QVERIFY(seen<QLabel>(*panel, "Paint inside with the left button, outside with the right one."));
+  QVERIFY(find_text(*panel, "Paint inside with the left button, outside with the right one."));
 }
 
 void ExamplesStoryTest::strokes_go_into_the_case_under_the_mouse() {
@@ -237,7 +227,7 @@ void ExamplesStoryTest::walls_and_anchors_are_painted_and_cleared() {
   QCOMPARE(count(solver::Constraint::anchor), 0);
   auto* panel = desktop.window().findChild<ui::WallControls*>();
   QVERIFY(panel && panel->isVisible());
-  auto* clear = seen<QAbstractButton>(*panel, "Clear walls and anchors");
+  auto* clear = find_seen<QAbstractButton>(*panel, "Clear walls and anchors");
   QVERIFY(clear);
   QTest::mouseClick(clear, Qt::LeftButton);
   desktop.wait_until_idle();
@@ -277,7 +267,7 @@ void ExamplesStoryTest::what_was_erased_does_not_grow_back() {
   desktop.window().panels().show("paint");
   desktop.wait_until_idle();
   auto* panel = desktop.window().findChild<ui::WallControls*>();
-  auto* check = seen<QAbstractButton>(*panel, "Erasing leaves a wall");
+  auto* check = find_seen<QAbstractButton>(*panel, "Erasing leaves a wall");
   QVERIFY(check);
   QTest::mouseClick(check, Qt::LeftButton, {}, {8, check->height() / 2});
   erase_and_play();
@@ -372,7 +362,7 @@ void ExamplesStoryTest::five_strokes_and_play_find_a_texture() {
   // The map shows what they leave in doubt.
   auto* map = desktop.view<ui::SliceViewWidget>("Speed map, axial");
   QVERIFY(map);
-  auto* doubt = seen<QAbstractButton>(desktop.window(), "Map of the doubt");
+  auto* doubt = find_seen<QAbstractButton>(desktop.window(), "Map of the doubt");
   QVERIFY(doubt && doubt->isEnabled());
   const auto pink = [&] {
     const QImage picture = map->grab_picture();
@@ -391,7 +381,7 @@ void ExamplesStoryTest::five_strokes_and_play_find_a_texture() {
   QVERIFY(desktop.proxy().display().settings().speed_term == renderer::SpeedTerm::doubt);
   QVERIFY(pink() > pink_before + 500);
   desktop.screenshot("examples-2-doubt");
-  QTest::mouseClick(seen<QAbstractButton>(desktop.window(), "Map of the speed"), Qt::LeftButton);
+  QTest::mouseClick(find_seen<QAbstractButton>(desktop.window(), "Map of the speed"), Qt::LeftButton);
   desktop.wait_until_idle();
   QVERIFY(desktop.proxy().display().settings().speed_term == renderer::SpeedTerm::data);
 

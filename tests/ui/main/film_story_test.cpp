@@ -8,7 +8,7 @@
 #include "ui/main/case_files.h"
 #include "ui/main/film_writer.h"
 #include "ui/main/message_bar.h"
-#include "ui/opening/loading_view.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::test::film_story_test {
 namespace {
@@ -90,15 +90,16 @@ class FilmStoryTest : public QObject {
     const TemporaryFolder folder;
     desktop.window().films().write(*desktop.window().active_case(),
                                    QString::fromStdString((folder / "none.gif").string()));
-    ui::LoadingView* line = nullptr;
+    ui::StatusProgress* line = nullptr;
     QVERIFY(Desktop::wait_for(
         [&] {
-          for (auto* view : desktop.window().statusBar()->findChildren<ui::LoadingView*>()) {
+          for (auto* view : desktop.window().statusBar()->findChildren<ui::StatusProgress*>()) {
             if (view->isVisible()) line = view;
           }
           return line != nullptr;
         },
         kPatience));
+    QCOMPARE(line->accessibleName(), QString("Writing none.gif"));
     QTest::mouseClick(line->findChild<QPushButton*>(), Qt::LeftButton);
     QVERIFY(Desktop::wait_for([&] { return !line->isVisible(); }, kPatience));
     QVERIFY(std::filesystem::is_empty(folder.path()));

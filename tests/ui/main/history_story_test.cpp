@@ -30,10 +30,8 @@ class History {
 
   [[nodiscard]] QListView& list() { return *list_; }
   [[nodiscard]] int rows() const { return model_->rowCount(); }
-  [[nodiscard]] const ui::HistoryItem& row(int number) const { return *model_->item(model_->index(number)); }
-  [[nodiscard]] const ui::HistoryItem& of(std::uint64_t id) const {
-    return *model_->item(model_->index_of(id));
-  }
+  [[nodiscard]] ui::HistoryItem row(int number) const { return *model_->item(model_->index(number)); }
+  [[nodiscard]] ui::HistoryItem of(std::uint64_t id) const { return *model_->item(model_->index_of(id)); }
   [[nodiscard]] QPushButton& button(const QString& text) {
     for (auto* button : panel_->findChildren<QPushButton*>()) {
       if (button->text() == text) return *button;

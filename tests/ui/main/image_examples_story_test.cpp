@@ -67,15 +67,6 @@ class ImageExamplesStoryTest : public QObject {
     return Desktop::wait_for([&] { return desktop_->state().speed && !desktop_->state().speed_waits; },
                              kPatience);
   }
-  template <class Widget>
-  Widget* named(const QString& name) {
-    for (auto* widget : desktop_->window().findChildren<Widget*>()) {
-      const bool is_it = widget->accessibleName() == name || widget->property("text").toString() == name;
-      if (is_it && widget->isVisible()) return widget;
-    }
-    return nullptr;
-  }
-
   TemporaryFolder folder_;
   std::unique_ptr<Desktop> desktop_;
   Mask truth_;
@@ -154,7 +145,7 @@ void ImageExamplesStoryTest::choose_what_is_used() {
   ui::apply_theme(*qApp, ui::Theme::light);
   desktop_->window().panels().show("display");
   desktop_->wait_until_idle();
-  auto* used = named<QCheckBox>("Used by the speed function");
+  auto* used = find_seen<QCheckBox>(desktop_->window(), "Used by the speed function");
   QVERIFY(used && used->isChecked());
   desktop_->screenshot("image-examples-2-panel");
   QTest::mouseClick(used, Qt::LeftButton, {}, {8, used->height() / 2});
@@ -168,7 +159,7 @@ void ImageExamplesStoryTest::choose_what_is_used() {
   QVERIFY(used->isChecked());
   QCOMPARE(drive().images.size(), std::size_t{1});
   // Taken out of the case it teaches no more; undo brings it back.
-  auto* remove = named<QToolButton>("Remove image");
+  auto* remove = find_seen<QToolButton>(desktop_->window(), "Remove image");
   QVERIFY(remove);
   QTest::mouseClick(remove, Qt::LeftButton);
   desktop_->wait_until_idle();
@@ -216,7 +207,7 @@ void ImageExamplesStoryTest::reopen_without_the_image() {
   desktop_->window().panels().show("display");
   desktop_->wait_until_idle();
   desktop_->screenshot("image-examples-3-missing");
-  auto* list = named<QListWidget>("Images over the slices");
+  auto* list = find_seen<QListWidget>(desktop_->window(), "Images over the slices");
   QVERIFY(list);
   QCOMPARE(list->item(0)->text(), QString("second.nrrd (not found)"));
   QVERIFY(desktop_->state().begun && drive().strokes);
@@ -278,7 +269,7 @@ void ImageExamplesStoryTest::images_keep_their_looks_though_the_first_is_not_use
   paint_examples();
   desktop_->window().panels().show("display");
   desktop_->wait_until_idle();
-  auto* used = named<QCheckBox>("Used by the speed function");
+  auto* used = find_seen<QCheckBox>(desktop_->window(), "Used by the speed function");
   QVERIFY(used);
   QTest::mouseClick(used, Qt::LeftButton, {}, {8, used->height() / 2});
   desktop_->wait_until_idle();

@@ -77,15 +77,6 @@ class ImagesStoryTest : public QObject {
     if (!Desktop::hover(*axial(), at)) return {};
     return desktop_->window().findChild<ui::ValueBar*>()->text();
   }
-  template <class Widget>
-  Widget* named(const QString& name) {
-    for (auto* widget : desktop_->window().findChildren<Widget*>()) {
-      const bool is_it = widget->accessibleName() == name || widget->property("text").toString() == name;
-      if (is_it && widget->isVisible()) return widget;
-    }
-    return nullptr;
-  }
-
  private slots:
   void an_image_is_shown_over_the_slices_and_taken_out() {
     desktop_ = std::make_unique<Desktop>(story_executor());
@@ -98,7 +89,7 @@ class ImagesStoryTest : public QObject {
     const auto* told = desktop_->window().findChild<ui::MessageBar*>();
     QVERIFY2(told->text().startsWith("It is not known whether pet.nii.gz has the study's frame of reference"),
              qPrintable(told->text()));
-    QVERIFY(named<QLabel>("Its place is not sure: no common frame of reference is known."));
+    QVERIFY(find_text(desktop_->window(), "Its place is not sure: no common frame of reference is known."));
     // The message makes the view lower while it is there.
     for (auto* button : desktop_->window().findChildren<QPushButton*>()) {
       if (button->text().remove('&') == "Dismiss" && button->isVisible())
@@ -115,7 +106,7 @@ class ImagesStoryTest : public QObject {
     QVERIFY(values_at({-35.0, 0.0, 0.0}).contains(QStringLiteral("–")));
 
     // Opacity by the keyboard.
-    auto* opacity = named<ui::NumberBox>("Image opacity");
+    auto* opacity = find_seen<ui::NumberBox>(desktop_->window(), "Image opacity");
     QVERIFY(opacity);
     opacity->setFocus();
     opacity->selectAll();
@@ -126,14 +117,14 @@ class ImagesStoryTest : public QObject {
     QVERIFY(difference(half, full) > 0.02);
 
     // Hidden by a click on its check mark: the picture is as it was.
-    auto* list = named<QListWidget>("Images over the slices");
+    auto* list = find_seen<QListWidget>(desktop_->window(), "Images over the slices");
     QVERIFY(list);
     const QRect row = list->visualItemRect(list->item(0));
     QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, {row.left() + 10, row.center().y()});
     QVERIFY(!images()[0].visible);
     QVERIFY(difference(before, picture()) < 0.01);
 
-    auto* remove = named<QToolButton>("Remove image");
+    auto* remove = find_seen<QToolButton>(desktop_->window(), "Remove image");
     QVERIFY(remove);
     QTest::mouseClick(remove, Qt::LeftButton);
     QVERIFY(images().empty());
@@ -186,7 +177,7 @@ class ImagesStoryTest : public QObject {
     QVERIFY(difference(part(right, 0.78, 1.0), part(fused, 0.78, 1.0)) < 0.001);
 
     // Off by the panel.
-    auto* swipe = named<QCheckBox>("Swipe line");
+    auto* swipe = find_seen<QCheckBox>(desktop_->window(), "Swipe line");
     QVERIFY(swipe && swipe->isChecked());
     QTest::mouseClick(swipe, Qt::LeftButton, {}, {8, swipe->height() / 2});
     QVERIFY(difference(picture(), fused) < 0.001);
@@ -280,6 +271,14 @@ class ImagesStoryTest : public QObject {
         Desktop::wait_for([&] { return images().size() == 1 && images().front().image->volume; }, kPatience));
     desktop_->wait_until_idle();
     QVERIFY(!desktop_->state().modified);
+  }
+
+  void a_thin_slice_of_a_long_study_is_added() {
+    desktop_ = std::make_unique<Desktop>(story_executor());
+    QVERIFY(desktop_->open(made("ct.nii.gz", ball_in_a_box({8, 8, 1000}, glm::dvec3(1.0), {}, 1.0F))));
+    // At the study's voxel 20 along z.
+    add_image(made("slice.nii.gz", ball_in_a_box({60, 60, 1}, {1.0, 1.0, 3.0}, {0.0, 0.0, -479.5}, 1.0F)));
+    QCOMPARE(images().size(), std::size_t{1});
   }
 
   void an_image_elsewhere_in_the_patient_is_refused() {

@@ -23,8 +23,8 @@
 #include "ui/main/panel_docks.h"
 #include "ui/main/teaching.h"
 #include "ui/main/value_bar.h"
-#include "ui/opening/loading_view.h"
 #include "ui/settings.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::test::languages_story_test {
 namespace {
@@ -203,9 +203,9 @@ class LanguagesStoryTest : public QObject {
   void work_that_is_on_its_way_is_not_given_up() {
     DesktopIn desktop("en");
     QVERIFY(desktop.open_phantom("sphere"));
-    auto* loading = desktop.window().findChild<ui::LoadingView*>();
-    QVERIFY(loading);
-    loading->show();
+    auto* progress = desktop.window().findChild<ui::StatusProgress*>();
+    QVERIFY(progress);
+    progress->show();
     QAction* german = desktop.window().actions().languages->actions().at(2);
     QCOMPARE(german->text(), QStringLiteral("Deutsch"));
     ui::MainWindow* const before = &desktop.window();
@@ -297,6 +297,7 @@ class LanguagesStoryTest : public QObject {
     QCOMPARE(cut_bars(desktop.window()).join("; "), QString());
     QCOMPARE(panels_too_wide(desktop, name).join("; "), QString());
     see_dialog(desktop, *desktop.window().actions().export_segmentation, "language-" + name + "-export");
+    see_dialog(desktop, *desktop.window().actions().send_result, "language-" + name + "-send");
     see_dialog(desktop, *desktop.window().actions().first_steps, "language-" + name + "-first-steps");
     see_dialog(desktop, *desktop.window().actions().about, "language-" + name + "-about");
     if (language != "en") QCOMPARE(untranslated.texts().join("; "), QString());
@@ -316,9 +317,11 @@ class LanguagesStoryTest : public QObject {
   // Opens it, and closes it again.
   static void see_dialog(Desktop& desktop, QAction& action, const QString& picture) {
     bool seen = false;
+    QStringList doubles;
     std::function<void()> look = [&] {
       QDialog* dialog = open_dialog();
       if (!dialog) return QTimer::singleShot(50, &desktop.window(), look);
+      doubles = doubled_letters(*dialog);
       const QString folder = qEnvironmentVariable("TIDEMARK_SCREENSHOTS");
       if (!folder.isEmpty()) dialog->grab().save(folder + '/' + picture + ".png");
       seen = true;
@@ -327,6 +330,7 @@ class LanguagesStoryTest : public QObject {
     QTimer::singleShot(0, &desktop.window(), look);
     action.trigger();
     QVERIFY2(Desktop::wait_for([&] { return seen; }), qPrintable(action.text()));
+    QCOMPARE(doubles.join("; "), QString());
     WatchedApplication::instance().forget_held();  // a picture takes longer than an event may
   }
 };

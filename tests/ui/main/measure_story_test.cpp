@@ -14,6 +14,7 @@
 #include "ui/main/panel_docks.h"
 #include "ui/panels/figure_table.h"
 #include "ui/panels/statistics_panel.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark::test::measure_story_test {
 
@@ -25,6 +26,7 @@ class MeasureStoryTest : public QObject {
   void area_and_sphericity_are_of_one_form();
   void measures_are_of_the_case_and_the_surface_that_are_seen();
   void small_values_are_told_with_their_digits();
+  void a_report_is_of_one_moment();
 
  private:
   static void click(Desktop& desktop, QWidget& in, const QString& text) {
@@ -183,6 +185,30 @@ void MeasureStoryTest::small_values_are_told_with_their_digits() {
   QVERIFY(Desktop::wait_for([&] { return done; }));
   const QByteArray report = bytes_of(file);
   for (const char* words : {"0.440", "0.050", "0.450 ± 0.000"}) QVERIFY2(report.contains(words), words);
+}
+
+void MeasureStoryTest::a_report_is_of_one_moment() {
+  const TemporaryFolder folder;
+  Desktop desktop(story_executor(), {1366, 768});
+  QVERIFY(desktop.open_phantom("sphere"));
+  desktop.begin(6.0);
+  desktop.proxy().set_pause_at_convergence(false);
+  desktop.proxy().play();
+  QVERIFY(Desktop::wait_for([&] { return desktop.state().step >= 5; }));
+  bool done = false;
+  QObject scope;
+  connect(&desktop.window().files(), &ui::CaseFiles::written, &scope, [&] { done = true; });
+  const auto file = folder / "report.html";
+  desktop.window().exports().write_report(*desktop.window().active_case(),
+                                          QString::fromStdString(file.string()));
+  QVERIFY(Desktop::wait_for([&] { return done; }));
+  const engine::CaseState& state = desktop.state();
+  QVERIFY(!state.playing);
+  const QString cell = QStringLiteral("<td align='left'>%1</td>");
+  const QByteArray report = bytes_of(file);
+  for (const QString& words : {cell.arg("Steps") + cell.arg(ui::count_text(state.step)),
+                               cell.arg(ui::size_text(state.surface.volume_ml, 2, "ml"))})
+    QVERIFY2(report.contains(words.toUtf8()), qPrintable(words));
 }
 
 TIDEMARK_TEST(MeasureStoryTest)

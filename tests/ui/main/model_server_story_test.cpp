@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QLabel>
 #include <QPushButton>
+#include <QTimer>
 
 #include "core/atomic_file.h"
 #include "tests/imaging/ai/model_server.h"
@@ -56,8 +57,17 @@ class ModelServerStoryTest : public QObject {
     desktop_->wait_until_idle();
   }
   void ask(QMessageBox::StandardButton reply) {
+    // A name must not hide what is asked.
+    bool is_plain = true;
+    QTimer look;
+    connect(&look, &QTimer::timeout, this, [&is_plain] {
+      const auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      if (box && box->textFormat() != Qt::PlainText) is_plain = false;
+    });
+    look.start(5);
     Desktop::answer(reply);
     click("Ask the model");
+    QVERIFY(is_plain);
   }
   [[nodiscard]] int questions_heard() const {
     const std::string heard = server_->heard();

@@ -24,15 +24,8 @@ class RefineStoryTest : public QObject {
   void a_label_is_refined_shown_and_undone();
 
  private:
-  template <class Widget>
-  static Widget* seen(QWidget& in, const QString& text) {
-    for (Widget* widget : in.findChildren<Widget*>()) {
-      if (widget->isVisible() && (widget->text() == text || widget->accessibleName() == text)) return widget;
-    }
-    return nullptr;
-  }
   static void click(Desktop& desktop, QWidget& in, const QString& text) {
-    auto* button = seen<QAbstractButton>(in, text);
+    auto* button = find_seen<QAbstractButton>(in, text);
     QVERIFY2(button && button->isEnabled(), qPrintable(text));
     QTest::mouseClick(button, Qt::LeftButton, {}, {8, button->height() / 2});
     desktop.wait_until_idle();
@@ -69,7 +62,7 @@ void RefineStoryTest::a_label_is_refined_shown_and_undone() {
   desktop.wait_until_idle();
   auto* labels = desktop.window().findChild<ui::LabelsPanel*>();
   QVERIFY(labels && labels->isVisible());
-  QVERIFY(!seen<QAbstractButton>(*labels, "Refine label")->isEnabled());  // there is none
+  QVERIFY(!find_seen<QAbstractButton>(*labels, "Refine label")->isEnabled());  // there is none
   click(desktop, *labels, "Accept surface into label");
   QCOMPARE(desktop.state().labels.size(), std::size_t{1});
 
@@ -115,7 +108,7 @@ void RefineStoryTest::a_label_is_refined_shown_and_undone() {
   desktop.screenshot("refine-1-grown");
 
   auto* change = desktop.window().findChild<ui::ChangeControls*>();
-  QVERIFY(change && seen<QLabel>(*change, QStringLiteral("2.4") + QChar(0x00A0) + "mm"));
+  QVERIFY(change && find_text(*change, QStringLiteral("2.4") + QChar(0x00A0) + "mm"));
   const int with_colours = orange_pixels(*axial);
   click(desktop, *change, "Show what has changed");
   QVERIFY(orange_pixels(*axial) < with_colours - 200);
@@ -133,7 +126,7 @@ void RefineStoryTest::a_label_is_refined_shown_and_undone() {
   desktop.press(Qt::Key_Z, Qt::ControlModifier);
   desktop.wait_until_idle();
   QVERIFY(!desktop.state().limit);
-  QVERIFY(!seen<QAbstractButton>(*change, "Show what has changed"));
+  QVERIFY(!find_seen<QAbstractButton>(*change, "Show what has changed"));
   desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   desktop.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   desktop.wait_until_idle();

@@ -1,7 +1,10 @@
 #include "tests/ui/main/window_checks.h"
 
+#include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QKeySequence>
+#include <QLabel>
 #include <QMap>
 #include <QMenu>
 #include <QMenuBar>
@@ -33,6 +36,26 @@ void look_for_doubles(const QString& name, const QWidget& menu, QStringList& dou
 QStringList doubled_menu_letters(ui::MainWindow& window) {
   QStringList doubles;
   look_for_doubles("menu bar", *window.menuBar(), doubles);
+  return doubles;
+}
+
+QStringList doubled_letters(const QWidget& dialog) {
+  QStringList doubles;
+  QMap<QString, QString> taken;
+  const auto look_at = [&](const QString& text) {
+    const QString key = QKeySequence::mnemonic(text).toString();
+    if (key.isEmpty()) return;
+    if (taken.contains(key)) doubles << taken[key] + ", " + text;
+    taken[key] = text;
+  };
+  for (const QLabel* label : dialog.findChildren<QLabel*>()) {
+    if (label->isVisible() && label->buddy()) look_at(label->text());
+  }
+  for (QAbstractButton* button : dialog.findChildren<QAbstractButton*>()) {
+    const auto* box = qobject_cast<QDialogButtonBox*>(button->parentWidget());
+    const bool is_of_qt = box && box->standardButton(button) != QDialogButtonBox::NoButton;
+    if (button->isVisible() && !is_of_qt) look_at(button->text());
+  }
   return doubles;
 }
 

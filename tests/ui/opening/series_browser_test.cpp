@@ -11,7 +11,6 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 #include "ui/look/language.h"
-#include "ui/opening/dropped_paths.h"
 #include "ui/opening/series_model.h"
 
 namespace tidemark::test::series_browser_test {
@@ -190,21 +189,6 @@ class SeriesBrowserTest : public QObject {
     table_->sortByColumn(ui::SeriesModel::kSize, Qt::AscendingOrder);
     QCOMPARE(cell(0, ui::SeriesModel::kSeries), QString("Small T2"));
     QCOMPARE(cell(3, ui::SeriesModel::kSeries), QString("Localizer"));
-  }
-
-  void rows_can_be_dragged_where_they_can_be_loaded() {
-    QAbstractItemModel* rows = table_->model();
-    QVERIFY(rows->flags(rows->index(0, 0)) & Qt::ItemIsDragEnabled);
-    QVERIFY(!(rows->flags(rows->index(3, 0)) & Qt::ItemIsDragEnabled));
-    const std::unique_ptr<QMimeData> data(rows->mimeData({rows->index(0, 0)}));
-    const auto dragged = ui::dropped_series(*data);
-    QVERIFY(dragged);
-    QCOMPARE(dragged->path, QString("/data/Large T1"));
-    QCOMPARE(dragged->uid, QString("1.2.256"));
-    QVERIFY(!ui::dropped_series(QMimeData()));
-    QMimeData cut;
-    cut.setData(ui::kSeriesMimeType, data->data(ui::kSeriesMimeType).left(7));
-    QVERIFY(!ui::dropped_series(cut));
   }
 
   void a_series_of_images_gets_its_picture() {

@@ -14,9 +14,9 @@
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 #include "ui/opening/load_report.h"
-#include "ui/opening/loading_view.h"
 #include "ui/opening/preview_page.h"
 #include "ui/opening/series_browser.h"
+#include "ui/widgets/status_progress.h"
 
 namespace tidemark::test::study_opener_test {
 
@@ -81,6 +81,16 @@ class StudyOpenerTest : public QObject {
     QCOMPARE(began_->first()[0].toString(), QString("a"));
     QCOMPARE(began_->last()[0].toString(), QString("20 wide"));
     QCOMPARE(ended_->size(), 1);
+  }
+
+  void a_name_is_said_as_it_is_while_several_are_opened() {
+    QCOMPARE(test::failure(write_series(folder_ / "dose %2 %L3", 20)), QString());
+    opener_->open(text(folder_ / "two/a"));
+    opener_->open(text(folder_ / "dose %2 %L3"));
+    QTRY_COMPARE_WITH_TIMEOUT(opened_->size(), 2, kPatience);
+    QStringList said;
+    for (const QList<QVariant>& one : *began_) said << one[0].toString();
+    QVERIFY2(said.contains("dose %2 %L3 (2 of 2)"), qPrintable(said.join(", ")));
   }
 
   void it_is_asked_for_on_demand() {
@@ -366,40 +376,37 @@ class StudyOpenerTest : public QObject {
     QCOMPARE(began_->size(), 1);
   }
 
-  void the_card_shows_how_far_it_is_and_what_went_wrong() {
-    ui::LoadingView view(ui::LoadingView::Shape::card);
-    connect(opener_, &ui::StudyOpener::began, &view, &ui::LoadingView::begin);
-    connect(opener_, &ui::StudyOpener::progressed, &view, &ui::LoadingView::set_progress);
-    connect(opener_, &ui::StudyOpener::failed, &view, &ui::LoadingView::fail);
-    connect(&view, &ui::LoadingView::cancelled, opener_, &ui::StudyOpener::cancel);
-    QSignalSpy closed(&view, &ui::LoadingView::closed);
-    view.show();
-    auto* bar = view.findChild<QProgressBar*>();
-    auto* button = view.findChild<QPushButton*>();
+  void the_status_bar_shows_how_far_it_is() {
+    QStatusBar bar;
+    auto* line = new ui::StatusProgress(bar);
+    opener_->show_in(*line);
+    bar.show();
+    QVERIFY(!line->isVisible());
+    auto* progress = line->findChild<QProgressBar*>();
     const auto says = [&](const QString& part) {
-      const auto labels = view.findChildren<QLabel*>();
+      const auto labels = line->findChildren<QLabel*>();
       return std::any_of(labels.begin(), labels.end(),
                          [&](QLabel* one) { return one->text().contains(part); });
     };
     opener_->open(text(folder_ / "nowhere"));
-    QVERIFY(says("nowhere"));
-    QCOMPARE(bar->maximum(), 0);  // not known yet
-    view.set_progress(0.25, "Decoding slices");
-    QCOMPARE(bar->value() * 4, bar->maximum());
+    QVERIFY(line->isVisible());
+    QVERIFY(says("Opening nowhere"));
+    QCOMPARE(progress->maximum(), 0);  // not known yet
+    line->set_progress(0.25, "Decoding slices");
+    QCOMPARE(progress->value() * 4, progress->maximum());
     QVERIFY(says("Decoding slices"));
     QTRY_COMPARE_WITH_TIMEOUT(failed_->size(), 1, kPatience);
-    QVERIFY(says("no such file or folder"));
-    QVERIFY(!bar->isVisible());
-    QTest::mouseClick(button, Qt::LeftButton);
-    QCOMPARE(closed.size(), 1);
+    QVERIFY(!line->isVisible());
     QCOMPARE(ended_->size(), 1);
 
     opener_->open_phantom("sphere");
-    QVERIFY(says("Sphere"));
-    QVERIFY(bar->isVisible());
-    button->setFocus();
-    QTest::keyClick(button, Qt::Key_Escape);
+    QVERIFY(line->isVisible());
+    QVERIFY(says("Opening Sphere"));
+    auto* cancel = line->findChild<QPushButton*>();
+    cancel->setFocus();
+    QTest::keyClick(cancel, Qt::Key_Escape);
     QCOMPARE(ended_->size(), 2);
+    QVERIFY(!line->isVisible());
   }
 
   void the_report_lists_what_was_changed() {

@@ -1,6 +1,7 @@
 // A user asks an archive for a study, unfolds it, and opens a series; or gives up.
 #include "ui/pacs/query_dialog.h"
 
+#include <QFile>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTreeWidget>
@@ -90,6 +91,34 @@ class QueryDialogTest : public QObject {
     const auto loaded = imaging::load_volume(retrieved.front().front().toString().toStdString());
     QCOMPARE(failure(loaded), QString());
     QVERIFY(loaded->values() == volume.values());
+  }
+
+  void what_comes_goes_to_the_sites_folder_where_that_is_locked() {
+    const TemporaryFolder site;
+    const Variable variable("TIDEMARK_SITE", QByteArray::fromStdString(site.path().string()));
+    const QString studies = QString::fromStdString((site / "studies").string());
+    QFile file(QString::fromStdString((site / "tidemark.conf").string()));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("[General]\nlocked=pacs/folder\n[pacs]\nfolder=" + studies.toUtf8() + "\n");
+    file.close();
+    const auto archive = start_dcmqrscp();
+    const TemporaryFolder sent;
+    QCOMPARE(
+        failure(imaging::send_files(archive->server(), write_series(sample_volume({4, 4, 2}), sent / "a"))),
+        QString());
+
+    const Asked asked(archive->server());
+    auto* keep_in = named<QLineEdit>(*asked.dialog, "Folder for what comes");
+    QVERIFY(!keep_in->isEnabled());
+    QVERIFY(!keep_in->toolTip().isEmpty());
+    QVERIFY(!button(*asked.dialog, "Choose…")->isEnabled());
+    QSignalSpy retrieved(asked.dialog.get(), &ui::QueryDialog::retrieved);
+    QTest::mouseClick(button(*asked.dialog, "Search"), Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(button(*asked.dialog, "Open")->isEnabled(), kPatience);
+    QTest::mouseClick(button(*asked.dialog, "Open"), Qt::LeftButton);
+    QVERIFY(retrieved.wait(kPatience));
+    QVERIFY(retrieved.front().front().toString().startsWith(studies + "/"));
+    QVERIFY(!std::filesystem::exists(asked.folder / "kept"));
   }
 
   void a_link_asks_for_its_study_and_brings_nothing() {

@@ -41,6 +41,28 @@ class DisplayPanelTest : public QObject {
     QCOMPARE(preset(), tr("Own"));
   }
 
+  // As of a map of diffusion in m2/s.
+  void windows_of_very_small_values_are_those_that_are_shown() {
+    auto study = std::make_shared<engine::LoadedStudy>(*ball_study());
+    auto volume = std::make_shared<Volume>(*study->volume);
+    std::vector<float> values = volume->values();
+    for (float& value : values) value *= 2e-11F;
+    volume->voxels = std::move(values);
+    volume->modality = "MR";
+    volume->window.reset();
+    study->summary = engine::summarise(*volume);
+    study->volume = volume;
+    engine::CaseProxy proxy(the_case_->engine, study, solver::ExecutorKind::host);
+    panel_->set_proxy(&proxy);
+    choose(tr("Preset"), tr("Full range"));
+    const WindowLevel window = proxy.display().settings().window;
+    const auto [lowest, highest] = volume->range();
+    QCOMPARE(window.width, double{highest} - double{lowest});
+    const auto* width = named<QDoubleSpinBox>(*panel_, tr("Width"));
+    QVERIFY(std::abs(width->value() / window.width - 1.0) < 0.01);
+    panel_->set_proxy(the_case_->proxy.get());
+  }
+
   void presets_of_tissues_are_for_ct_alone() {
     auto study = std::make_shared<engine::LoadedStudy>(*ball_study());
     auto volume = std::make_shared<Volume>(*study->volume);

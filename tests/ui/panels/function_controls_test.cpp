@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <algorithm>
 
+#include "document/speed_map.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
 #include "tests/support/test_program.h"
@@ -89,6 +90,31 @@ class FunctionControlsTest : public QObject {
     the_case_->wait_until_idle();
     QVERIFY(the_case_->proxy->drive().setting.is_tent());
     QTRY_VERIFY(!choose->isVisible());
+  }
+
+  void a_map_of_another_frame_of_reference_is_remarked() {
+    const auto study = std::make_shared<engine::LoadedStudy>(*ball_study());
+    study->frame_of_reference_uid = "1.2.3";
+    PanelCase framed(study);
+    panel_->set_proxy(framed.proxy.get());
+    const Geometry& grid = study->volume->geometry;
+    imaging::Segment segment;
+    segment.slices[12] = std::vector<std::uint8_t>(static_cast<std::size_t>(grid.size.x * grid.size.y), 1);
+    const TemporaryFolder folder;
+    QCOMPARE(failure(imaging::write_segmentation({grid, {segment}, {}}, {}, folder / "seg.dcm")), QString());
+    const auto map = document::load_speed_map(folder / "seg.dcm", grid);
+    QCOMPARE(failure(map), QString());
+    document::Drive drive;
+    drive.setting.terms = {{"image", {}}};
+    drive.map = *map;
+    framed.proxy->set_drive(drive);
+    QTRY_VERIFY(says("another frame of reference"));
+    auto own = std::make_shared<document::SpeedMap>(**map);
+    own->frame_of_reference_uid = "1.2.3";
+    drive.map = own;
+    framed.proxy->set_drive(drive);
+    QTRY_VERIFY(!says("another frame of reference"));
+    panel_->set_proxy(nullptr);
   }
 
   // A second image that tells the ball's two halves apart.

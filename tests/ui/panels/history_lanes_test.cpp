@@ -34,6 +34,31 @@ class HistoryLanesTest : public QObject {
     QVERIFY((lanes[4] == RowLanes{0, false, {0, 1}, {}}));
   }
 
+  void a_line_stays_in_its_lane_beside_a_free_one() {
+    const auto lanes = lanes_of({{6, 4}, {5, 2}, {4, std::nullopt}, {2, 1}, {1, std::nullopt}});
+    QVERIFY((lanes[2] == RowLanes{0, false, {0}, {1}}));
+    QVERIFY((lanes[3] == RowLanes{1, true, {1}, {}}));
+    QVERIFY((lanes[4] == RowLanes{1, false, {1}, {}}));
+  }
+
+  // Another try, again and again: more lines than there is room for.
+  void lines_without_room_share_the_last_lane() {
+    constexpr std::uint64_t kTries = 5000;
+    std::vector<TreeRow> rows;
+    for (std::uint64_t id = kTries + 1; id > 1; --id) rows.push_back({id, 1});
+    rows.push_back({1, std::nullopt});
+    const auto lanes = lanes_of(rows);
+    const std::vector<int> all{0, 1, 2, 3, 4};
+    static_assert(kMostLanes == 5);
+    QVERIFY((lanes[2] == RowLanes{2, true, {}, {0, 1}}));
+    QVERIFY((lanes[4] == RowLanes{4, true, {}, {0, 1, 2, 3}}));
+    for (std::size_t row = 5; row < kTries; ++row) QVERIFY((lanes[row] == RowLanes{4, true, {}, all}));
+    QVERIFY((lanes[kTries] == RowLanes{0, false, all, {}}));
+    // One of them ends, and the others go on.
+    const auto some = lanes_of({{9, 1}, {8, 1}, {7, 1}, {6, 1}, {5, 3}, {4, 1}, {3, 1}, {1, std::nullopt}});
+    QVERIFY((some[6] == RowLanes{4, true, {4}, all}));
+  }
+
   void a_parent_that_was_forgotten_has_no_line() {
     QVERIFY((lanes_of({{7, 2}}) == std::vector<RowLanes>{{0, false, {}, {}}}));
   }

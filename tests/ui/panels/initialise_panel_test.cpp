@@ -8,10 +8,14 @@
 #include <QPushButton>
 #include <QToolButton>
 
+#include "engine/background_job.h"
 #include "imaging/files/volume_file.h"
+#include "imaging/results/results.h"
 #include "solver/speed/motion_limit.h"
+#include "tests/imaging/dicom/series_files.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/panels/panel_case.h"
+#include "ui/panels/start_files.h"
 
 namespace tidemark::test::initialise_panel_test {
 
@@ -189,6 +193,40 @@ class InitialisePanelTest : public QObject {
     QVERIFY(!the_case_->state().begun);
   }
 
+  void what_reading_a_mask_found_comes_with_the_start() {
+    const Geometry grid = the_case_->proxy->volume().geometry;
+    write_slice(grid, "seg.dcm");
+    set_text(folder_ / "seg.dcm", 0x0062, 0x0001, "FRACTIONAL");
+    ui::StartRequest request;
+    request.path = folder_ / "seg.dcm";
+    request.grid = grid;
+    const auto wanted = imaging::load_any_mask(request.path, &grid);
+    QCOMPARE(failure(wanted), QString());
+    QVERIFY(!wanted->changes.empty());
+    auto loaded = ui::load_start(request);
+    QCOMPARE(failure(loaded), QString());
+    QVERIFY(loaded->remarks == wanted->changes);
+    request.frame_of_reference_uid = "1.2.3";
+    loaded = ui::load_start(request);
+    QCOMPARE(failure(loaded), QString());
+    QCOMPARE(loaded->remarks.size(), wanted->changes.size() + 1);
+  }
+
+  void a_mask_of_another_frame_of_reference_starts_and_is_remarked() {
+    panel_.reset();
+    const auto study = std::make_shared<engine::LoadedStudy>(*ball_study());
+    study->frame_of_reference_uid = "1.2.3";
+    the_case_ = std::make_unique<PanelCase>(study);
+    panel_ = shown<ui::InitialisePanel>(*the_case_, 700);
+    write_slice(study->volume->geometry, "seg.dcm");
+    choose(tr("Mask file"));
+    type_path("seg.dcm");
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    QTRY_VERIFY(the_case_->state().begun);
+    the_case_->wait_until_idle();
+    QVERIFY2(says("seg.dcm: it names another frame of reference"), qPrintable(sentence()));
+  }
+
   void a_saved_level_set_goes_on() {
     the_case_->begin(7.0);
     const double before = the_case_->state().surface.volume_ml;
@@ -255,6 +293,70 @@ class InitialisePanelTest : public QObject {
     QTRY_COMPARE(the_case_->state().smoothed_mm, 0.0);
   }
 
+  void smoothing_beyond_the_slider_is_shown_as_it_is() {
+    the_case_->proxy->smooth_source(8.0);
+    QTRY_COMPARE(the_case_->state().smoothed_mm, 8.0);
+    panel_ = shown<ui::InitialisePanel>(*the_case_, 700);
+    QCOMPARE(named<QDoubleSpinBox>(*panel_, tr("Smoothing σ"))->value(), 8.0);
+    QVERIFY(!button<QPushButton>(*panel_, tr("Smooth"))->isEnabled());
+  }
+
+  void a_file_that_is_read_for_one_case_holds_up_no_other() {
+    Mask mask{the_case_->proxy->volume().geometry, {}};
+    mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxel_count()), 1);
+    QCOMPARE(failure(imaging::write_mask_file(mask, folder_ / "all.nii.gz")), QString());
+    PanelCase other;
+    choose(tr("Mask file"));
+    type_path("all.nii.gz");
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    QVERIFY(!start_button()->isEnabled());
+    panel_->set_proxy(other.proxy.get());
+    QVERIFY(start_button()->isEnabled());
+    QVERIFY2(!says(tr("Reading the file")), qPrintable(sentence()));
+    QTRY_VERIFY(the_case_->state().begun);
+    other.wait_until_idle();
+    QVERIFY(!other.state().begun);
+    panel_->set_proxy(the_case_->proxy.get());
+    QVERIFY(start_button()->isEnabled());
+  }
+
+  void what_is_wrong_with_a_file_is_said_where_its_case_is_shown() {
+    Geometry small = the_case_->proxy->volume().geometry;
+    small.size.x -= 1;
+    Mask mask{small, std::vector<std::uint8_t>(static_cast<std::size_t>(small.voxel_count()), 1)};
+    QCOMPARE(failure(imaging::write_mask_file(mask, folder_ / "other.nii.gz")), QString());
+    PanelCase other;
+    choose(tr("Mask file"));
+    type_path("other.nii.gz");
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    panel_->set_proxy(other.proxy.get());
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
+    QCoreApplication::processEvents();
+    QVERIFY2(!says("its grid"), qPrintable(sentence()));
+    panel_->set_proxy(the_case_->proxy.get());
+    QVERIFY2(says("other.nii.gz: its grid"), qPrintable(sentence()));
+  }
+
+  void the_reading_of_a_file_can_be_given_up() {
+    Mask mask{the_case_->proxy->volume().geometry, {}};
+    mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxel_count()), 1);
+    QCOMPARE(failure(imaging::write_mask_file(mask, folder_ / "all.nii.gz")), QString());
+    choose(tr("Mask file"));
+    type_path("all.nii.gz");
+    QTest::mouseClick(start_button(), Qt::LeftButton);
+    QPushButton* cancel = nullptr;
+    for (auto* one : panel_->findChildren<QPushButton*>()) {
+      if (one->text() == tr("Cancel") && one->isVisible()) cancel = one;
+    }
+    QVERIFY(cancel);
+    cancel->click();
+    QVERIFY(!cancel->isVisible());
+    QVERIFY(start_button()->isEnabled());
+    QVERIFY(engine::BackgroundJob::finish_all(std::chrono::seconds(60)));
+    the_case_->wait_until_idle();
+    QVERIFY(!the_case_->state().begun);
+  }
+
   void a_session_may_die_while_a_file_is_read() {
     Mask mask{the_case_->proxy->volume().geometry, {}};
     mask.voxels.assign(static_cast<std::size_t>(mask.geometry.voxel_count()), 1);
@@ -286,6 +388,16 @@ class InitialisePanelTest : public QObject {
       return;
     }
     QFAIL(qPrintable(name));
+  }
+  // A segmentation with a frame of reference of its own: a block in one slice.
+  void write_slice(const Geometry& grid, const std::string& name) {
+    std::vector<std::uint8_t> slice(static_cast<std::size_t>(grid.size.x * grid.size.y));
+    for (std::int64_t j = 10; j < 30; ++j) {
+      for (std::int64_t i = 10; i < 20; ++i) slice[static_cast<std::size_t>(grid.offset({i, j, 0}))] = 1;
+    }
+    imaging::Segment segment;
+    segment.slices[12] = slice;
+    QCOMPARE(failure(imaging::write_segmentation({grid, {segment}, {}}, {}, folder_ / name)), QString());
   }
   void type_path(const std::string& name) {
     for (auto* path : panel_->findChildren<QLineEdit*>()) {

@@ -3,11 +3,13 @@
 #include <QAbstractButton>
 #include <QCheckBox>
 #include <QColorDialog>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPointer>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QTableView>
 #include <QToolButton>
 
@@ -283,6 +285,32 @@ class LabelsPanelTest : public QObject {
     the_case_->proxy->add_label(QStringLiteral("Tumour"));
     the_case_->wait_until_idle();
     QCOMPARE(text(0, ui::LabelsModel::name), QStringLiteral("Tumour"));
+  }
+
+  void labels_to_choose_from_stay_while_they_are_the_same() {
+    add();
+    add();
+    auto* tool = named<QComboBox>(*panel_, tr("Tool"));
+    tool->setCurrentText(tr("Add"));
+    emit tool->activated(tool->currentIndex());
+    the_case_->wait_until_idle();
+    auto* with = named<QComboBox>(*panel_, tr("With"));
+    QCOMPARE(with->count(), 2);  // the surface, and the label that is not chosen
+    const QSignalSpy taken(with->model(), &QAbstractItemModel::rowsRemoved);
+    const QSignalSpy made_anew(with->model(), &QAbstractItemModel::modelReset);
+    const QSignalSpy added(with->model(), &QAbstractItemModel::rowsInserted);
+    the_case_->proxy->display().change([](engine::DisplaySettings& s) { s.cursor_mm.x += 3.0; });
+    the_case_->begin(8.0);
+    QCOMPARE(taken.size() + made_anew.size() + added.size(), 0);
+    const int last = with->count() - 1;
+    with->setCurrentIndex(last);
+    document::Label other = the_case_->state().labels.front();
+    QCOMPARE(with->currentData().toInt(), int{other.id});
+    other.name = "Spleen";
+    the_case_->proxy->set_label(other);
+    the_case_->wait_until_idle();
+    QCOMPARE(with->currentText(), QStringLiteral("Spleen"));
+    QCOMPARE(with->count(), 2);
   }
 
   void opacity_is_that_of_the_slices() {

@@ -16,8 +16,8 @@ void drag(QWidget& widget, QPoint from, QPoint to, int moves) {
   QTest::mouseRelease(&widget, Qt::LeftButton, {}, to);
 }
 
-PanelCase::PanelCase()
-    : proxy(std::make_unique<engine::CaseProxy>(engine, ball_study(), solver::ExecutorKind::host)) {
+PanelCase::PanelCase(std::shared_ptr<const engine::LoadedStudy> study)
+    : proxy(std::make_unique<engine::CaseProxy>(engine, std::move(study), solver::ExecutorKind::host)) {
   proxy->display().change([this](engine::DisplaySettings& settings) { settings.cursor_mm = middle(); });
   wait_until_idle();
 }

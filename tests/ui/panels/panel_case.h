@@ -35,7 +35,7 @@ void drag(QWidget& widget, QPoint from, QPoint to, int moves = 5);
 
 class PanelCase {
  public:
-  PanelCase();
+  explicit PanelCase(std::shared_ptr<const engine::LoadedStudy> study = ball_study());
 
   engine::Engine engine{false};
   std::unique_ptr<engine::CaseProxy> proxy;

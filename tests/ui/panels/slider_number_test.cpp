@@ -111,11 +111,18 @@ class SliderNumberTest : public QObject {
     QCOMPARE(ui::decimals_for(4000.0), 0);
     QCOMPARE(ui::decimals_for(1.0), 3);
     QCOMPARE(ui::decimals_for(0.0), 0);
+    QCOMPARE(ui::decimals_for(2e-9), 12);
     QCOMPARE(ui::value_decimals(4000.0), 1);
     QCOMPARE(ui::value_decimals(1.0), 3);
     QLocale::setDefault(QLocale(QLocale::German));
     QCOMPARE(ui::number_text(1234.56, 1, "mm"), QStringLiteral("1234,6") + QChar(QChar::Nbsp) + "mm");
     QLocale::setDefault(QLocale::c());
+    QCOMPARE(ui::number_text(2e-9, ui::decimals_for(2e-9)), QStringLiteral("0.000000002000"));
+    QCOMPARE(ui::size_text(12.345, 1), QStringLiteral("12.3"));
+    QCOMPARE(ui::size_text(0.3, 1), QStringLiteral("0.30"));
+    QCOMPARE(ui::size_text(0.0412, 1), QStringLiteral("0.041"));
+    QCOMPARE(ui::size_text(0.0, 1), QStringLiteral("0.0"));
+    QCOMPARE(ui::share_text(0.99999), QStringLiteral("99.9") + QChar(QChar::Nbsp) + "%");
     QCOMPARE(ui::short_text(0.0123), QStringLiteral("0.0123"));
     QCOMPARE(ui::short_text(12.345), QStringLiteral("12.3"));
     QCOMPARE(ui::short_text(0.0), QStringLiteral("0"));

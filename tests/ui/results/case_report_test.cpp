@@ -8,7 +8,9 @@
 #include <csignal>
 #include <glm/geometric.hpp>
 
+#include "solver/statistics.h"
 #include "tests/support/test_program.h"
+#include "ui/widgets/number_text.h"
 
 namespace tidemark::test::case_report_test {
 namespace {
@@ -57,6 +59,39 @@ class CaseReportTest : public QObject {
     const auto page = ui::report_page(of, contents_of(*of.volume));
     QCOMPARE(failure(page), QString());
     QVERIFY2(page->contains("&lt;b&gt;&amp;") && !page->contains("<b>"), qPrintable(*page));
+  }
+
+  // Half of the ball lies beyond the image.
+  void the_part_that_an_image_covers_is_told() {
+    const ui::ReportSource of = source();
+    document::SessionContents contents = contents_of(*of.volume);
+    auto volume = std::make_shared<Volume>(*even_volume("HU"));
+    volume->geometry.size.z = 8;
+    std::vector<std::int16_t> voxels(static_cast<std::size_t>(volume->geometry.voxel_count()), 7);
+    voxels.front() = -1000;
+    volume->voxels = std::move(voxels);
+    auto image = std::make_shared<document::CaseImage>();
+    image->name = "Other";
+    image->volume = volume;
+    contents.images = {image};
+    const auto page = ui::report_page(of, contents);
+    QCOMPARE(failure(page), QString());
+    QVERIFY2(page->contains("Other (covers " + ui::share_text(0.5) + " of the region)"), qPrintable(*page));
+    QVERIFY2(!page->contains("-1000"), qPrintable(*page));
+  }
+
+  void volume_and_area_are_those_of_the_panel() {
+    const ui::ReportSource of = source();
+    const document::SessionContents contents = contents_of(*of.volume);
+    const solver::SurfaceStatistics surface = solver::measure(*contents.phi);
+    const QString volume = ui::size_text(surface.volume_ml, 2, "ml");
+    // So it can be told from the volume of the voxels.
+    const double of_voxels = static_cast<double>(surface.voxels_inside) * contents.geometry.voxel_volume_ml();
+    QVERIFY(ui::size_text(of_voxels, 2, "ml") != volume);
+    const auto page = ui::report_page(of, contents);
+    QCOMPARE(failure(page), QString());
+    for (const QString& figure : {volume, ui::size_text(surface.surface_mm2, 0, QStringLiteral("mm²"))})
+      QVERIFY2(page->contains("<td align='left'>" + figure + "</td>"), qPrintable(*page));
   }
 
   void the_form_is_that_of_the_suffix_in_capitals_too() {

@@ -196,6 +196,26 @@ class CornersTest : public QObject {
     QVERIFY(differing_pixels(shown, hidden, upper_left) > 50);
     QCOMPARE(differing_pixels(hidden, other_view->grab_picture(), hidden.rect()), 0);
   }
+
+  // The outline of the state that is compared is in no view of pages.
+  void a_colour_is_named_where_it_is_seen() {
+    PanelCase the_case;
+    the_case.begin();
+    the_case.proxy->step();
+    the_case.wait_until_idle();
+    const std::uint64_t begun = the_case.state().history->back().state.id;
+    for (const auto content : {renderer::SliceContent::source, renderer::SliceContent::pages}) {
+      the_case.proxy->comparison().choose(std::nullopt);
+      ui::SliceViewWidget view(*the_case.proxy, ui::SlicePlane::axial, content);
+      view.resize(500, 400);
+      view.show();
+      const QImage before = view.grab_picture();
+      the_case.proxy->comparison().choose(begun);
+      QVERIFY(the_case.proxy->comparison().state());
+      const bool is_same = differing_pixels(before, view.grab_picture(), before.rect()) == 0;
+      QCOMPARE(is_same, content == renderer::SliceContent::pages);
+    }
+  }
 };
 
 TIDEMARK_TEST(CornersTest)

@@ -1,11 +1,13 @@
 // The outline of a mask lies where the mask ends, in slices of every orientation.
 #include "ui/views/mask_outline.h"
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 
 #include "tests/support/test_program.h"
+#include "ui/views/slice_lattice.h"
 
 namespace tidemark::test::mask_outline_test {
 
@@ -110,6 +112,45 @@ class MaskOutlineTest : public QObject {
     QVERIFY(
         ui::outline_in_slice(ball(), renderer::kAxial, middle() + renderer::kAxial.into() * (kRadius + 3.0))
             .isEmpty());
+  }
+
+  void a_box_beside_the_slice_has_no_points_in_it() {
+    const VoxelRange box{{5, 6, 7}, {20, 22, 24}};
+    const auto points_at = [](const VoxelRange& of, const renderer::SliceOrientation& orientation,
+                              glm::dvec3 voxel) {
+      return ui::lattice_in(kGrid, of, orientation, kGrid.to_patient(voxel)).points();
+    };
+    const std::array across{renderer::kSagittal, renderer::kCoronal, renderer::kAxial};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = [&](double place) {
+        glm::dvec3 voxel(10.0);
+        voxel[axis] = place;
+        return points_at(box, across[static_cast<std::size_t>(axis)], voxel);
+      };
+      const auto first = static_cast<double>(box.low[axis]);
+      const auto last = static_cast<double>(box.high[axis] - 1);
+      for (const double place : {first - 0.9, first, last, last + 0.9}) QVERIFY(at(place) > 100);
+      for (const double place : {first - 1.1, last + 1.1}) QCOMPARE(at(place), std::int64_t{0});
+    }
+    renderer::SliceOrientation oblique;
+    oblique.right = glm::normalize(glm::dvec3(1.0, -1.0, 0.0));
+    oblique.up = glm::dvec3(0.0, 0.0, 1.0);
+    QVERIFY(points_at(box, oblique, {10.0, 10.0, 0.0}) > 100);
+    QCOMPARE(points_at(box, oblique, {0.0, 0.0, 10.0}), std::int64_t{0});
+    QCOMPARE(points_at(VoxelRange(), renderer::kAxial, {0.0, 0.0, 0.0}), std::int64_t{0});
+  }
+
+  void regions_beside_the_slice_change_nothing() {
+    engine::LabelPreview one;
+    one.from.geometry = kGrid;
+    one.regions.push_back({1, {}, whole({{5, 6, 7}, {20, 22, 24}})});
+    engine::LabelPreview many = one;
+    for (std::int64_t z = 0; z < kGrid.size.z; ++z) {
+      if (std::abs(z - 12) > 1) many.regions.push_back({2, {}, whole({{2, 3, z}, {30, 25, z + 1}})});
+    }
+    const glm::dvec3 position = kGrid.to_patient({0.0, 0.0, 12.0});
+    const QList<QLineF> lines = ui::outline_in_slice(one, renderer::kAxial, position);
+    QVERIFY(!lines.isEmpty() && ui::outline_in_slice(many, renderer::kAxial, position) == lines);
   }
 };
 

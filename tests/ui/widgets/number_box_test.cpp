@@ -232,6 +232,56 @@ class NumberBoxTest : public QObject {
     QCOMPARE(box_->value(), 11.0);
   }
 
+  void a_group_of_digits_is_not_what_stands_behind_the_point() {
+    make("de_DE");
+    for (const int decimals : {0, 1, 2}) {
+      box_->setDecimals(decimals);
+      for (const char* typed : {"1.000", "-11,000", "110.000"}) {
+        box_->show_value(7.0);
+        type(typed);
+        leave();
+        QCOMPARE(box_->value(), 7.0);
+        QVERIFY2(is_marked(), typed);
+      }
+      for (const char* typed : {"8.0000", "0008,000", "8,00"}) {
+        box_->show_value(7.0);
+        type(typed);
+        leave();
+        QVERIFY2(box_->value() == 8.0 && !is_marked(), typed);
+      }
+      type("0.000");
+      leave();
+      QVERIFY(box_->value() == 0.0 && !is_marked());
+    }
+  }
+
+  // Their minus is two characters.
+  void a_negative_number_is_one_in_languages_from_right_to_left() {
+    for (const char* language : {"he_IL", "ar_EG", "fa_IR", "ur_PK"}) {
+      make(language);
+      box_->setValue(-7.0);
+      QVERIFY2(box_->problem().isEmpty(), language);
+      box_->stepUp();
+      QCOMPARE(box_->value(), -6.0);
+      type("-7,5");
+      leave();
+      QCOMPARE(box_->value(), -7.5);
+      QVERIFY2(!is_marked(), language);
+    }
+  }
+
+  void a_screen_reader_says_why_a_number_is_refused() {
+    make("en_US");
+    type("50000");
+    leave();
+    QVERIFY(is_marked());
+    QVERIFY(!box_->problem().isEmpty());
+    QCOMPARE(box_->accessibleDescription(), box_->problem());
+    box_->show_value(8.0);
+    QVERIFY(!is_marked());
+    QCOMPARE(box_->accessibleDescription(), QString());
+  }
+
   void digits_are_not_grouped_and_zero_has_no_sign() {
     make("de_DE");
     box_->setValue(1234.5);
