@@ -1,6 +1,5 @@
 #include "gpu/texture.h"
 
-#include "core/checked.h"
 #include "gpu/framebuffer.h"
 #include "gpu/gl.h"
 #include "gpu/label.h"

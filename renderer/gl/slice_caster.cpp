@@ -6,7 +6,6 @@
 #include <glm/matrix.hpp>
 
 #include "core/stopwatch.h"
-#include "renderer/gl/uniforms.h"
 #include "renderer/view_setup.h"
 
 namespace tidemark::renderer {

@@ -1,7 +1,5 @@
 #include "renderer/host/host_scene.h"
 
-#include "solver/speed/tent_speed.h"
-
 namespace tidemark::renderer {
 
 HostScene::HostScene(std::shared_ptr<const Volume> volume, const PageLayout& layout)

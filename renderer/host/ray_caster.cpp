@@ -7,8 +7,6 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
-#include "renderer/host/colours.h"
-
 namespace tidemark::renderer {
 namespace {
 

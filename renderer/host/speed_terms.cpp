@@ -14,10 +14,6 @@ float SpeedTerms::data_of(float value) const {
       std::max(tent.peak - std::abs(static_cast<double>(value) - tent.target) * tent.slope, tent.floor));
 }
 
-float SpeedTerms::data_between(glm::vec3 position) const {
-  return map != nullptr ? map->between(position) : data_of(source.between(position));
-}
-
 SpeedTerms::Values SpeedTerms::at(SpeedTerm term, glm::ivec3 voxel) const {
   namespace per_target = solver::HWY_NAMESPACE;
   const auto phi_at = [&](Index3 v) { return phi.at(glm::ivec3(v)); };

@@ -19,9 +19,8 @@ struct SpeedTerms {
   solver::Tent tent;
   solver::StepConstants<float> constants;
 
-  // D, unweighted: the tent of a value of the source, and what drives the surface at a place.
+  // D, unweighted: the tent of a value of the source.
   [[nodiscard]] float data_of(float value) const;
-  [[nodiscard]] float data_between(glm::vec3 position) const;
 
   // A weighted term, in units of the data term's: 1 is a front that moves at full speed outward. And kappa,
   // the sum of the principal curvatures, per smallest spacing.
