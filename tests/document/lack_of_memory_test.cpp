@@ -176,7 +176,13 @@ std::map<std::string, Row> rows() {
 }
 
 std::unique_ptr<Case> small_case() {
-  auto made = make_case(lumpy_volume({20, 18, 15}));
+  document::StudyOrigin origin;
+  origin.phantom = "lumpy";  // a session names its study
+  solver::ExecutorOptions options;
+  options.threads = 1;
+  auto made = std::move(document::Case::create(lumpy_volume({20, 18, 15}), origin, lumpy_parameters(),
+                                               solver::ExecutorKind::host, options)
+                            .value());
   (void)made->origin();  // its checksum is then known, and no thread computes it
   return made;
 }
