@@ -72,7 +72,6 @@ KeysDialog::KeysDialog(Actions& actions, QWidget* parent) : QDialog(parent), act
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
           &KeysDialog::reset_keys);
-  buttons->button(QDialogButtonBox::Close)->setDefault(true);
   // Tab goes on to boxes that are out of sight, too.
   connect(qApp, &QApplication::focusChanged, table_, [this](const QWidget* /*before*/, const QWidget* now) {
     if (now && now->parentWidget() == table_->viewport()) table_->scrollTo(table_->indexAt(now->pos()));
@@ -81,7 +80,9 @@ KeysDialog::KeysDialog(Actions& actions, QWidget* parent) : QDialog(parent), act
   layout->addWidget(table_);
   layout->addWidget(make_note(tr("Type a key into its box. Backspace leaves an action without one.")));
   layout->addWidget(buttons);
-  setTabOrder(buttons->button(QDialogButtonBox::RestoreDefaults), buttons->button(QDialogButtonBox::Close));
+  QPushButton* close = buttons->button(QDialogButtonBox::Close);
+  setTabOrder(buttons->button(QDialogButtonBox::RestoreDefaults), close);
+  close->setDefault(true);  // of this dialog, in which it is by now
   mark_conflicts();
 }
 
