@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/index_walk.h"
+#include "core/number_in.h"
 #include "document/packed_bytes.h"
 
 namespace tidemark::document {
@@ -52,7 +53,7 @@ Changes changes_between(const Constraints& before, const Constraints& constraint
       if (now == before.at(voxel)) return;
       const auto is_it = [now](const Becomes& kind) { return kind.what == now; };
       const auto kind = std::find_if(kBecomes.begin(), kBecomes.end(), is_it) - kBecomes.begin();
-      changes[static_cast<std::size_t>(kind)].push_back((voxel.z * size.y + voxel.y) * size.x + voxel.x);
+      changes[static_cast<std::size_t>(kind)].push_back(number_in(size, voxel));
     });
   });
   for (auto& voxels : changes) std::sort(voxels.begin(), voxels.end());
