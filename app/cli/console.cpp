@@ -30,7 +30,7 @@ void set_up_log() {
 
 }  // namespace
 
-Console::Console(std::stop_token stop) : stop_(std::move(stop)), bar_(std::make_unique<ProgressBar>()) {
+Console::Console(Interrupt& interrupt) : interrupt_(interrupt), bar_(std::make_unique<ProgressBar>()) {
   set_up_log();
 }
 
@@ -71,7 +71,7 @@ void Console::result(const Json& object) {
 
 Progress Console::progress() {
   Progress progress;
-  progress.stop = stop_;
+  progress.stop = interrupt_.stop_token();
   if (bar_->visible()) {
     progress.report = [this](double fraction, std::string_view what) { bar_->show(fraction, what); };
   }
@@ -82,7 +82,7 @@ int Console::finish(const Status& status) {
   bar_->clear();
   if (std::fflush(stdout) != 0) output_failed_ = true;
   if (!status) {
-    spdlog::error("{}", one_line(status.error().message));
+    if (interrupt_.take_last_word()) spdlog::error("{}", one_line(status.error().message));
     return exit_code(status.error().kind);
   }
   if (output_failed_) {

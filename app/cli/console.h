@@ -5,10 +5,10 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stop_token>
 #include <string>
 #include <utility>
 
+#include "app/cli/interrupt.h"
 #include "core/progress.h"
 #include "core/result.h"
 
@@ -22,7 +22,7 @@ class ProgressBar;
 // output carries one JSON object and nothing else.
 class Console {
  public:
-  explicit Console(std::stop_token stop);
+  explicit Console(Interrupt& interrupt);
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
@@ -51,17 +51,18 @@ class Console {
 
   // Draws a bar while standard error is a terminal; carries the request to stop.
   [[nodiscard]] Progress progress();
-  [[nodiscard]] bool interrupted() const { return stop_.stop_requested(); }
+  [[nodiscard]] bool interrupted() const { return interrupt_.stop_token().stop_requested(); }
 
   // Ends the program: clears the bar, prints an error in one line, returns the exit code. Results that could
-  // not be written to standard output count as a failed write.
+  // not be written to standard output count as a failed write. An interrupt that ends the program has told
+  // why, and that is not said again.
   int finish(const Status& status);
 
  private:
   void say_line(const std::string& line);
   void log_line(const std::string& line);
 
-  std::stop_token stop_;
+  Interrupt& interrupt_;
   bool json_ = false;
   bool verbose_ = false;
   bool output_failed_ = false;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,6 +18,8 @@ namespace {
 constexpr int kWake = SIGUSR1;
 // For the program to end by itself. With what it takes to clean up, a signal ends it within a second.
 constexpr timespec kGrace{0, 700'000'000};
+// For a last word that another thread has begun.
+constexpr timespec kLastWord{0, 100'000'000};
 
 bool is_ignored(int signal) {
   struct sigaction action {};
@@ -32,17 +35,6 @@ sigset_t awaited_signals() {
     if (!is_ignored(signal)) sigaddset(&signals, signal);
   }
   return signals;
-}
-
-// Whoever holds locks of the C library, holds them still: nothing but system calls.
-[[noreturn]] void end_at_once(int standard_error) {
-  remove_unfinished();
-  constexpr std::string_view kClear = "\r\x1b[K";  // the progress bar
-  constexpr std::string_view kText = "tidemark-cli: error: interrupted\n";
-  if (::isatty(standard_error) == 1)
-    static_cast<void>(!::write(standard_error, kClear.data(), kClear.size()));
-  static_cast<void>(!::write(standard_error, kText.data(), kText.size()));
-  ::_exit(exit_code(ErrorKind::cancelled));
 }
 
 }  // namespace
@@ -71,8 +63,23 @@ void Interrupt::wait_for_signals() {
     return only;
   }();
   while (!done_) {
-    if (sigtimedwait(&wake, nullptr, &kGrace) < 0 && errno == EAGAIN) end_at_once(standard_error_);
+    if (sigtimedwait(&wake, nullptr, &kGrace) < 0 && errno == EAGAIN) end_at_once();
   }
+}
+
+// Whoever holds locks of the C library, holds them still: nothing but system calls.
+void Interrupt::end_at_once() {
+  remove_unfinished();
+  constexpr std::string_view kClear = "\r\x1b[K";  // the progress bar
+  constexpr std::string_view kText = "tidemark-cli: error: interrupted\n";
+  if (!take_last_word()) {
+    ::nanosleep(&kLastWord, nullptr);
+    ::_exit(exit_code(ErrorKind::cancelled));
+  }
+  if (::isatty(standard_error_) == 1)
+    static_cast<void>(!::write(standard_error_, kClear.data(), kClear.size()));
+  static_cast<void>(!::write(standard_error_, kText.data(), kText.size()));
+  ::_exit(exit_code(ErrorKind::cancelled));
 }
 
 Interrupt::~Interrupt() {

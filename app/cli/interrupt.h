@@ -22,13 +22,17 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   [[nodiscard]] std::stop_token stop_token() const { return source_.get_token(); }
+  // Whether it is the caller who says why the program ends: the thread that ends it may have said so.
+  [[nodiscard]] bool take_last_word() { return !said_.exchange(true); }
 
  private:
   void wait_for_signals();
+  [[noreturn]] void end_at_once();
 
   const int standard_error_;  // also while commands have put it aside
   std::stop_source source_;
   std::atomic<bool> done_{false};
+  std::atomic<bool> said_{false};
   std::thread waiter_;
 };
 

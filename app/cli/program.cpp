@@ -177,7 +177,7 @@ CLI::App& add_command(CLI::App& app, Program& program, const CommandHelp& help, 
 int run_program(int argc, char** argv) {
   Interrupt interrupt;  // before any thread: they inherit the signal mask
   try {
-    Program program{Console(interrupt.stop_token()), {}};
+    Program program{Console(interrupt), {}};
     try {
       return run_unguarded(argc, argv, program);
     } catch (const std::bad_alloc& error) {

@@ -29,6 +29,7 @@ std::shared_ptr<const engine::LoadedStudy> ball_study() {
   study->summary = engine::summarise(*volume);
   study->volume = std::move(volume);
   study->name = QStringLiteral("Ball");
+  study->origin.phantom = "ball";
   study->parameters.target = 100.0;
   study->parameters.range = 50.0;
   study->parameters.alpha = 0.8;
