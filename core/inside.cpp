@@ -1,7 +1,6 @@
 #include "core/inside.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace tidemark {
 
@@ -11,13 +10,6 @@ Inside inside_of(const Mask& mask) {
             std::transform(from + offset, from + offset + voxels.size(), voxels.begin(),
                            [](std::uint8_t voxel) { return std::uint8_t(voxel != 0); });
           }};
-}
-
-Inside inside_of(std::shared_ptr<const Mask> mask) {
-  Inside inside = inside_of(*mask);
-  inside.read = [mask = std::move(mask), read = std::move(inside.read)](
-                    std::int64_t offset, std::span<std::uint8_t> voxels) { read(offset, voxels); };
-  return inside;
 }
 
 Mask mask_of(const Inside& inside) {

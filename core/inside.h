@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 
 #include "core/volume.h"
@@ -19,9 +18,8 @@ struct Inside {
   Read read;
 };
 
-// The voxels that are not 0. In the first form the mask must outlive the result.
+// The voxels that are not 0. The mask must outlive the result.
 [[nodiscard]] Inside inside_of(const Mask& mask);
-[[nodiscard]] Inside inside_of(std::shared_ptr<const Mask> mask);
 
 [[nodiscard]] Mask mask_of(const Inside& inside);
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <glm/common.hpp>
 
+#include "core/bit_mask.h"
 #include "core/paged_bytes.h"
 
 namespace tidemark {
@@ -71,6 +72,14 @@ Region::Region(const Mask& mask) : Region(VoxelRange{Index3(0), mask.geometry.si
   for (std::uint64_t* word = words_.data(); word != words_.data() + words_.size(); word += words_a_row()) {
     for (std::int64_t i = 0; i < mask.geometry.size.x; ++i, ++value)
       word[i / kBits] |= std::uint64_t{*value != 0 ? 1U : 0U} << (i % kBits);
+  }
+}
+
+Region::Region(const BitMask& mask) : Region(VoxelRange{Index3(0), mask.geometry().size}) {
+  std::int64_t offset = 0;
+  for (std::uint64_t* word = words_.data(); word != words_.data() + words_.size(); word += words_a_row()) {
+    for (std::int64_t i = 0; i < mask.geometry().size.x; ++i, ++offset)
+      word[i / kBits] |= std::uint64_t{mask.contains(offset) ? 1U : 0U} << (i % kBits);
   }
 }
 

@@ -10,6 +10,7 @@
 
 namespace tidemark {
 
+class BitMask;
 class PagedBytes;
 
 // A box of voxels: from `low` up to, and without, `high`.
@@ -34,9 +35,10 @@ class Region {
   Region() = default;  // no voxel, and room for none
   // No voxel, and room for those of the box.
   explicit Region(const VoxelRange& box);
-  // The voxels that are not 0. The second form: those of that value, which is
-  // not what pages without memory hold.
+  // The voxels that are not 0, or in the mask. The third form: those of that value, which is not what pages
+  // without memory hold.
   explicit Region(const Mask& mask);
+  explicit Region(const BitMask& mask);
   Region(const PagedBytes& values, std::uint8_t value);
 
   // Of any voxel, in the box or not.

@@ -62,7 +62,8 @@ Result<Acceptance> Case::accept_surface(std::uint8_t label, Take take, const std
 Status Case::begin_from_label(std::uint8_t label, std::optional<double> within_mm, int levels) {
   const Label* known = labels_.find(label);
   if (known == nullptr) return fail(ErrorKind::usage, "there is no label {}", label);
-  MaskStart from{std::make_shared<const Mask>(labels_.mask(label)), "label " + known->name};
+  MaskStart from{std::make_shared<const BitMask>(labels_.geometry(), labels_.region(label)),
+                 "label " + known->name};
   if (within_mm) {
     auto refined = limited(std::move(from), *within_mm);
     if (!refined) return pass_on(refined);

@@ -99,7 +99,7 @@ Result<bool> CoarseLevels::begin(solver::Executor& executor, const solver::Coars
   coarse.seeds = start_.seeds;
   coarse.erasers = start_.erasers;
   if (inside_) {
-    coarse.from = MaskStart{std::make_shared<const Mask>(solver::coarsened(*inside_, grid)), {}};
+    coarse.from = MaskStart{std::make_shared<const BitMask>(solver::coarsened(*inside_, grid)), {}};
     inside_.reset();
   }
   Volume volume;

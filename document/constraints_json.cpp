@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -93,36 +94,37 @@ void read_list(const JsonField& field, Index3 size, Constraint what, Constraints
   }
 }
 
-Json packed_bits(const Constraints& constraints, Constraint what) {
-  const Index3 size = constraints.layout().domain_size();
-  std::vector<std::uint8_t> voxels;
-  voxels.reserve(static_cast<std::size_t>(voxels_in(size)));
-  for_each_index(Index3(0), size,
-                 [&](Index3 voxel) { voxels.push_back(constraints.at(voxel) == what ? 1 : 0); });
-  return pack_bits(voxels);
+Json packed_mask(const Constraints& constraints, Constraint what) {
+  const PageLayout& layout = constraints.layout();
+  Geometry grid;
+  grid.size = layout.domain_size();
+  BitMask mask(grid);
+  for (const std::int64_t page : constraints.pages().stored_pages()) {
+    const Index3 first = layout.first_voxel(page);
+    for_each_index(first, first + layout.valid_shape(page), [&](Index3 voxel) {
+      if (constraints.at(voxel) == what) mask.add(grid.offset(voxel));
+    });
+  }
+  return pack_bytes(mask.bits());
 }
 
-Mask read_bits(const JsonField& field, Index3 size) {
-  Mask mask;
-  mask.geometry.size = size;
+std::optional<BitMask> read_mask(const JsonField& field, const Geometry& grid) {
   const std::string packed = field.text(kAnyLength);
-  if (!field.good()) return mask;
-  auto voxels = unpack_bits(packed, static_cast<std::size_t>(voxels_in(size)));
-  if (voxels) {
-    mask.voxels = std::move(*voxels);
-  } else {
-    field.wrong("does not hold the volume's voxels");
-  }
+  if (!field.good()) return std::nullopt;
+  auto mask = unpack_mask(packed, grid);
+  if (!mask) field.wrong("does not hold the volume's voxels");
   return mask;
 }
 
 std::shared_ptr<const Constraints> read_all(const JsonField& drive, Index3 size) {
-  const Mask walls = read_bits(drive.at("walls"), size);
-  const Mask anchors = read_bits(drive.at("anchors"), size);
-  if (!drive.good()) return nullptr;
+  Geometry grid;
+  grid.size = size;
+  const auto walls = read_mask(drive.at("walls"), grid);
+  const auto anchors = read_mask(drive.at("anchors"), grid);
+  if (!walls || !anchors) return nullptr;
   auto constraints = std::make_shared<Constraints>(size);
-  constraints->set(walls, Constraint::wall);
-  constraints->set(anchors, Constraint::anchor);
+  constraints->set(*walls, Constraint::wall);
+  constraints->set(*anchors, Constraint::anchor);
   return constraints;
 }
 
@@ -148,8 +150,8 @@ void add_constraints(Json& drive, const Constraints* constraints, const Constrai
   std::size_t count = 0;
   for (const auto& voxels : changes) count += voxels.size();
   if (count > longest_list(size)) {
-    drive["walls"] = packed_bits(*constraints, Constraint::wall);
-    drive["anchors"] = packed_bits(*constraints, Constraint::anchor);
+    drive["walls"] = packed_mask(*constraints, Constraint::wall);
+    drive["anchors"] = packed_mask(*constraints, Constraint::anchor);
     return;
   }
   Json& lists = drive["constraints"] = Json::object();

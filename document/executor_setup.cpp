@@ -212,7 +212,7 @@ Result<solver::Field> ExecutorSetup::begin(const Start& start, const Progress& p
   const auto former = limit_;
   // Of a mask on another grid begin() says so.
   const auto* from = std::get_if<MaskStart>(&start.from);
-  const bool fits = from == nullptr || from->mask->geometry.size == source_->geometry.size;
+  const bool fits = from == nullptr || from->mask->geometry().size == source_->geometry.size;
   TIDEMARK_TRY(set_limit(fits ? start.limit() : nullptr));
   coarse_runs_.clear();
   if (!start.empty()) {

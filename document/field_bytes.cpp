@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 namespace tidemark::document {
 
@@ -56,69 +58,93 @@ ZipEntry FieldBytes::pages_entry(std::string_view name) const {
           }};
 }
 
-Result<std::vector<std::shared_ptr<const solver::Field>>> fields_from_file(
-    const Geometry& geometry, double band, Index3 page_shape, std::span<const std::int32_t> tables,
-    std::span<const float> pages, const std::string& what) {
-  const solver::Field empty = solver::Field::empty(geometry, band, page_shape);
-  const std::int64_t voxels = empty.layout.voxels_per_page();
-  const auto length = static_cast<std::size_t>(empty.layout.page_count());
-  if (tables.size() % length != 0 || pages.size() % static_cast<std::size_t>(voxels) != 0) {
-    return fail(ErrorKind::input, "{}: the page table or the pages have the wrong size", what);
+Result<FieldsReader> FieldsReader::open(const solver::Field& like, std::vector<std::int32_t> tables,
+                                        std::size_t pages, std::string what) {
+  FieldsReader reader(like, std::move(tables), std::move(what));
+  TIDEMARK_TRY(reader.find_names(pages));
+  const solver::Field empty = solver::Field::empty(like.geometry, like.band, like.layout.page_shape());
+  for (std::size_t n = 0; n < reader.tables_.size(); ++n) {
+    const std::size_t page = n % reader.tables_length();
+    if (page == 0) reader.fields_.push_back(std::make_shared<solver::Field>(empty));
+    if (reader.tables_[n] != kInsideEntry) continue;
+    reader.fields_.back()->pages.set_constant(static_cast<std::int64_t>(page), solver::Field::Kind::inside);
   }
-  const auto limit = static_cast<float>(band);
-  const auto bad = std::find_if(pages.begin(), pages.end(), [&](float value) {
-    return !std::isfinite(value) || std::abs(value) > limit;
-  });
-  if (bad != pages.end()) {
-    return fail(ErrorKind::input, "{}: phi is {}, the band is {}", what, *bad, band);
-  }
-  struct Place {
-    std::int64_t page = -1;  // none yet
-    std::size_t field = 0;   // the first that has it
-  };
-  std::vector<Place> places(pages.size() / static_cast<std::size_t>(voxels));
-  std::vector<std::shared_ptr<const solver::Field>> fields;
-  for (std::size_t first = 0; first < tables.size(); first += length) {
-    auto phi = std::make_shared<solver::Field>(empty);
-    for (std::int64_t page = 0; page < empty.layout.page_count(); ++page) {
-      const std::int32_t entry = tables[first + static_cast<std::size_t>(page)];
-      if (entry == kOutsideEntry) continue;
-      if (entry == kInsideEntry) {
-        phi->pages.set_constant(page, solver::Field::Kind::inside);
-        continue;
-      }
-      if (entry < 0 || static_cast<std::size_t>(entry) >= places.size()) {
-        return fail(ErrorKind::input, "{}: the page table names page {}, which is not there", what, entry);
-      }
-      Place& place = places[static_cast<std::size_t>(entry)];
-      if (place.page < 0) {
-        place = {page, fields.size()};
-        std::copy_n(pages.data() + entry * voxels, voxels, phi->pages.store(page));
-      } else if (place.page == page) {
-        phi->pages.share(page, fields[place.field]->pages);
-      } else {
-        return fail(ErrorKind::input, "{}: the page table names page {} twice", what, entry);
-      }
-    }
-    fields.push_back(std::move(phi));
-  }
-  if (std::any_of(places.begin(), places.end(), [](const Place& place) { return place.page < 0; })) {
-    return fail(ErrorKind::input, "{}: the page table does not name all pages", what);
-  }
-  return fields;
+  reader.page_.resize(static_cast<std::size_t>(like.layout.voxels_per_page()));
+  return reader;
 }
 
-Result<std::shared_ptr<const solver::Field>> field_from_file(const Geometry& geometry, double band,
-                                                             Index3 page_shape,
-                                                             std::span<const std::int32_t> table,
-                                                             std::span<const float> pages,
-                                                             const std::string& what) {
-  const PageLayout layout(geometry.size, page_shape);
-  if (static_cast<std::int64_t>(table.size()) != layout.page_count())
-    return fail(ErrorKind::input, "{}: the page table or the pages have the wrong size", what);
-  auto fields = fields_from_file(geometry, band, page_shape, table, pages, what);
-  if (!fields) return pass_on(fields);
-  return std::move(fields->front());
+Status FieldsReader::find_names(std::size_t pages) {
+  if (tables_.size() % tables_length() != 0)
+    return fail(ErrorKind::input, "{}: the page table or the pages have the wrong size", what_);
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  // There are no more of them than entries: a size alone takes no memory.
+  if (pages <= tables_.size()) first_names_.assign(pages, kNone);
+  for (std::size_t n = 0; n < tables_.size(); ++n) {
+    const std::int32_t entry = tables_[n];
+    if (entry == kOutsideEntry || entry == kInsideEntry) continue;
+    if (entry < 0 || static_cast<std::size_t>(entry) >= pages) {
+      return fail(ErrorKind::input, "{}: the page table names page {}, which is not there", what_, entry);
+    }
+    if (first_names_.empty()) continue;
+    std::size_t& first = first_names_[static_cast<std::size_t>(entry)];
+    if (first == kNone) {
+      first = n;
+    } else if (first % tables_length() != n % tables_length()) {
+      return fail(ErrorKind::input, "{}: the page table names page {} twice", what_, entry);
+    }
+  }
+  const bool all = first_names_.size() == pages &&
+                   std::find(first_names_.begin(), first_names_.end(), kNone) == first_names_.end();
+  if (!all) return fail(ErrorKind::input, "{}: the page table does not name all pages", what_);
+  return {};
+}
+
+void FieldsReader::take(std::span<const std::byte> piece) {
+  const std::span<std::byte> page = std::as_writable_bytes(std::span(page_));
+  while (taken_ && !piece.empty()) {
+    const auto part = piece.first(std::min(piece.size(), page.size() - page_bytes_));
+    std::copy(part.begin(), part.end(), page.begin() + static_cast<std::ptrdiff_t>(page_bytes_));
+    piece = piece.subspan(part.size());
+    page_bytes_ += part.size();
+    if (page_bytes_ < page.size()) continue;
+    taken_ = put_page();
+    page_bytes_ = 0;
+  }
+}
+
+Status FieldsReader::put_page() {
+  if (pages_ == first_names_.size())
+    return fail(ErrorKind::input, "{}: the page table or the pages have the wrong size", what_);
+  const auto limit = static_cast<float>(like_.band);
+  const auto bad = std::find_if(page_.begin(), page_.end(), [&](float value) {
+    return !std::isfinite(value) || std::abs(value) > limit;
+  });
+  if (bad != page_.end())
+    return fail(ErrorKind::input, "{}: phi is {}, the band is {}", what_, *bad, like_.band);
+  const std::size_t name = first_names_[pages_++];
+  const auto page = static_cast<std::int64_t>(name % tables_length());
+  SharedPages& pages = fields_[name / tables_length()]->pages;
+  const float* const present = like_.pages.values(page);
+  if (present != nullptr && std::memcmp(present, page_.data(), page_.size() * sizeof(float)) == 0) {
+    pages.share(page, like_.pages);
+  } else {
+    std::copy(page_.begin(), page_.end(), pages.store(page));
+  }
+  return {};
+}
+
+Result<std::vector<std::shared_ptr<const solver::Field>>> FieldsReader::fields() {
+  if (!taken_) return pass_on(taken_);
+  if (pages_ != first_names_.size() || page_bytes_ != 0)
+    return fail(ErrorKind::input, "{}: the page table or the pages have the wrong size", what_);
+  for (std::size_t n = 0; n < tables_.size(); ++n) {
+    if (tables_[n] < 0) continue;
+    const std::size_t first = first_names_[static_cast<std::size_t>(tables_[n])];
+    if (first == n) continue;
+    fields_[n / tables_length()]->pages.share(static_cast<std::int64_t>(n % tables_length()),
+                                              fields_[first / tables_length()]->pages);
+  }
+  return std::vector<std::shared_ptr<const solver::Field>>(fields_.begin(), fields_.end());
 }
 
 }  // namespace tidemark::document

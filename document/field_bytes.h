@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
@@ -49,18 +51,41 @@ class FieldBytes {
 inline constexpr std::int32_t kOutsideEntry = -1;
 inline constexpr std::int32_t kInsideEntry = -2;
 
-// Checks tables and values, and makes fields of them that share what they have in common. Fails
-// (ErrorKind::input) when the sizes do not fit, a table names a page that is not there or lies elsewhere in
-// another, a page has no name, or a value is not finite or beyond the band. `what` is for the message.
-Result<std::vector<std::shared_ptr<const solver::Field>>> fields_from_file(
-    const Geometry& geometry, double band, Index3 page_shape, std::span<const std::int32_t> tables,
-    std::span<const float> pages, const std::string& what);
-// The same of one table.
-Result<std::shared_ptr<const solver::Field>> field_from_file(const Geometry& geometry, double band,
-                                                             Index3 page_shape,
-                                                             std::span<const std::int32_t> table,
-                                                             std::span<const float> pages,
-                                                             const std::string& what);
+// Makes fields of tables and pages as FieldBytes writes them. The pages come piece by piece, and none is in
+// memory twice: fields share what they have in common.
+class FieldsReader {
+ public:
+  // The fields are like `like`, with whose stored pages they share what is the same. `pages`: how many there
+  // are; `what` is for messages. Fails (ErrorKind::input) when the sizes do not fit, or a table names a page
+  // that is not there or lies elsewhere in another, or a page has no name.
+  static Result<FieldsReader> open(const solver::Field& like, std::vector<std::int32_t> tables,
+                                   std::size_t pages, std::string what);
+
+  // The next bytes of the pages, as many as there are.
+  void take(std::span<const std::byte> piece);
+  // After the last piece, once. Fails (ErrorKind::input) where a value was not finite or beyond the band, or
+  // there were fewer or more bytes than the pages have.
+  Result<std::vector<std::shared_ptr<const solver::Field>>> fields();
+
+ private:
+  FieldsReader(const solver::Field& like, std::vector<std::int32_t> tables, std::string what)
+      : like_(like), tables_(std::move(tables)), what_(std::move(what)) {}
+  [[nodiscard]] std::size_t tables_length() const {
+    return static_cast<std::size_t>(like_.layout.page_count());
+  }
+  Status find_names(std::size_t pages);
+  Status put_page();
+
+  solver::Field like_;
+  std::vector<std::int32_t> tables_;
+  std::string what_;
+  std::vector<std::size_t> first_names_;  // of each page: its place in the tables
+  std::vector<std::shared_ptr<solver::Field>> fields_;
+  std::vector<float> page_;     // that is being taken
+  std::size_t page_bytes_ = 0;  // of it that are there
+  std::size_t pages_ = 0;       // that were taken
+  Status taken_;                // until a page was bad
+};
 
 // Page shapes that files may name: those that executors have.
 [[nodiscard]] bool is_page_shape(Index3 shape);

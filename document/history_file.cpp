@@ -221,10 +221,13 @@ Status read_phi(ZipReader& archive, SessionContents& contents, const std::vector
   const std::size_t size = archive.size(kHistoryPages);
   if (size % page_bytes != 0 || size / page_bytes > static_cast<std::size_t>(kMostPages))
     return fail(ErrorKind::input, "{}: {} bytes of pages are no pages", what, size);
-  auto pages = archive.read<float>(kHistoryPages, size / sizeof(float));
-  if (!pages) return pass_on(pages);
-  auto fields =
-      fields_from_file(present.geometry, present.band, present.layout.page_shape(), *tables, *pages, what);
+  auto reader = FieldsReader::open(present, std::move(*tables), size / page_bytes, what);
+  if (!reader) return pass_on(reader);
+  TIDEMARK_TRY(archive.unpack(kHistoryPages, size, [&](std::span<const std::uint8_t> piece) -> Status {
+    reader->take(std::as_bytes(piece));
+    return {};
+  }));
+  auto fields = reader->fields();
   if (!fields) return pass_on(fields);
   for (std::size_t state = 0; state < states; ++state) history.states[state].phi = (*fields)[phi_of[state]];
   if (!same_pages(*history.states[history.present].phi, present))

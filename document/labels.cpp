@@ -234,10 +234,6 @@ Result<Acceptance> Labels::brush(LabelRegion stroke, Stroke what, Take take) {
               what == Stroke::adds ? Giving::adds : Giving::erases);
 }
 
-Mask Labels::mask(std::uint8_t id) const {
-  return mask_of(region(id), geometry_);
-}
-
 Status Labels::check(const std::vector<Label>& list, const PagedBytes& voxels) const {
   std::array<bool, 256> known{true};
   for (const Label& label : list) {

@@ -81,7 +81,6 @@ class Labels {
   // A stroke over a region: the label gets its voxels, or loses them. Fails as finish() does.
   enum class Stroke { adds, erases };
   Result<Acceptance> brush(LabelRegion stroke, Stroke what, Take take = Take::free_voxels);
-  [[nodiscard]] Mask mask(std::uint8_t id) const;
   [[nodiscard]] Region region(std::uint8_t id) const { return {voxels_, id}; }
 
   // Other labels and other voxels, all at once. Fails as assign() does.

@@ -81,7 +81,7 @@ Result<std::optional<solver::SurfaceDistance>> distance_to_truth(const LessonSta
   if (state.truth == nullptr) return std::nullopt;
   // Its band is that of no try: one may have none.
   const solver::Field truth = solver::distance_transform(
-      *state.truth, solver::default_band(state.phi.geometry), state.phi.layout.page_shape());
+      inside_of(*state.truth), solver::default_band(state.phi.geometry), state.phi.layout.page_shape());
   auto agreement = solver::agreement(state.phi, truth, progress);
   if (!agreement) return pass_on(agreement);
   return agreement->distance;

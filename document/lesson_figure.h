@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/bit_mask.h"
 #include "core/progress.h"
 #include "solver/executor.h"
 #include "solver/field.h"
@@ -19,7 +20,7 @@ struct LessonState {
   bool rests = false;
   double time_step = 0.0;
   solver::MemoryReport memory;
-  const Mask* truth = nullptr;  // on phi's grid; null: not known
+  const BitMask* truth = nullptr;  // on phi's grid; null: not known
 };
 
 struct LessonFigure {

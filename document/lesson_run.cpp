@@ -93,7 +93,7 @@ Result<LessonVolume> load_lesson_study(const LessonStudy& study, const std::file
   if (!phantom) return pass_on(phantom);
   loaded.start = suggested_start(phantom->volume.geometry, phantom->seed, phantom->init_threshold);
   loaded.volume = std::make_shared<const Volume>(std::move(phantom->volume));
-  loaded.truth = std::make_shared<const Mask>(std::move(phantom->truth));
+  loaded.truth = std::make_shared<const BitMask>(phantom->truth);
   return loaded;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/bit_mask.h"
 #include "document/lesson.h"
 #include "document/lesson_figure.h"
 #include "solver/executor.h"
@@ -15,8 +16,8 @@ namespace tidemark::document {
 // The study of a lesson in memory.
 struct LessonVolume {
   std::shared_ptr<const Volume> volume;
-  std::shared_ptr<const Mask> truth;  // on the volume's grid; null: not known
-  Start start;                        // a phantom's own; empty: none
+  std::shared_ptr<const BitMask> truth;  // on the volume's grid; null: not known
+  Start start;                           // a phantom's own; empty: none
 };
 // `folder` holds the lesson's file. Fails as make_phantom() and load_volume() do.
 Result<LessonVolume> load_lesson_study(const LessonStudy& study, const std::filesystem::path& folder,

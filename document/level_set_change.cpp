@@ -25,7 +25,7 @@ std::int64_t bytes_apart(const solver::Field& a, const solver::Field& b) {
 std::int64_t start_bytes(const Start& start) {
   std::int64_t bytes = 0;
   if (const auto* mask = std::get_if<MaskStart>(&start.from)) {
-    bytes = static_cast<std::int64_t>(mask->mask->voxels.size());
+    bytes = static_cast<std::int64_t>(mask->mask->bits().size());
   } else if (const auto* phi = std::get_if<FieldStart>(&start.from)) {
     bytes = phi->phi->pages.bytes();
   }

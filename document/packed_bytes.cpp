@@ -6,6 +6,7 @@
 #include "core/deflate_ratio.h"
 
 namespace tidemark::document {
+
 std::string pack_bytes(std::span<const std::byte> bytes) {
   uLongf length = compressBound(bytes.size());
   std::string deflated(length, '\0');
@@ -28,22 +29,9 @@ std::optional<std::vector<std::byte>> unpack_bytes(std::string_view text, std::s
   return bytes;
 }
 
-std::string pack_bits(std::span<const std::uint8_t> values) {
-  std::vector<std::byte> bits((values.size() + 7) / 8);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] != 0) bits[i / 8] |= std::byte{1} << (i % 8);
-  }
-  return pack_bytes(bits);
-}
-
-std::optional<std::vector<std::uint8_t>> unpack_bits(std::string_view text, std::size_t count) {
-  const auto bits = unpack_bytes(text, (count + 7) / 8);
-  if (!bits) return std::nullopt;
-  std::vector<std::uint8_t> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    values[i] = ((*bits)[i / 8] >> (i % 8) & std::byte{1}) != std::byte{0} ? 1 : 0;
-  }
-  return values;
+std::optional<BitMask> unpack_mask(std::string_view text, const Geometry& grid) {
+  const auto bits = unpack_bytes(text, BitMask::bytes_of(grid));
+  return bits ? std::optional<BitMask>(BitMask(grid, *bits)) : std::nullopt;
 }
 
 }  // namespace tidemark::document

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/bit_mask.h"
 
 namespace tidemark::document {
 
@@ -16,9 +17,7 @@ namespace tidemark::document {
 // makes at most 1032 bytes of one.
 [[nodiscard]] std::optional<std::vector<std::byte>> unpack_bytes(std::string_view text, std::size_t size);
 
-// One bit for each value that is not 0, packed.
-[[nodiscard]] std::string pack_bits(std::span<const std::uint8_t> values);
-// Values 0 and 1; nothing unless the text holds exactly `count` of them.
-[[nodiscard]] std::optional<std::vector<std::uint8_t>> unpack_bits(std::string_view text, std::size_t count);
+// A mask whose bits were packed; nothing unless the text holds exactly those of the grid.
+[[nodiscard]] std::optional<BitMask> unpack_mask(std::string_view text, const Geometry& grid);
 
 }  // namespace tidemark::document

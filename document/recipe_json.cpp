@@ -57,18 +57,14 @@ std::vector<solver::Sphere> read_spheres(const JsonField& field) {
   return spheres;
 }
 
-std::shared_ptr<const Mask> read_mask(const JsonField& field) {
-  auto mask = std::make_shared<Mask>();
-  mask->geometry = read_geometry(field.at("grid"));
+std::shared_ptr<const BitMask> read_mask(const JsonField& field) {
+  const Geometry grid = read_geometry(field.at("grid"));
   const std::string packed = field.at("bits").text(std::numeric_limits<std::size_t>::max());
-  if (!field.good()) return mask;
-  auto voxels = unpack_bits(packed, static_cast<std::size_t>(mask->geometry.voxel_count()));
-  if (voxels) {
-    mask->voxels = std::move(*voxels);
-  } else {
-    field.at("bits").wrong("does not hold the grid's voxels");
-  }
-  return mask;
+  if (!field.good()) return nullptr;
+  auto mask = unpack_mask(packed, grid);
+  if (mask) return std::make_shared<const BitMask>(std::move(*mask));
+  field.at("bits").wrong("does not hold the grid's voxels");
+  return nullptr;
 }
 
 template <class Number>
@@ -111,15 +107,22 @@ std::shared_ptr<const solver::Field> read_field(const JsonField& field) {
   const PageLayout layout(geometry.size, shape);
   const auto resident = field.at("resident_pages").integer(0, layout.page_count());
   auto table = read_numbers<std::int32_t>(field.at("table"), static_cast<std::size_t>(layout.page_count()));
-  auto pages =
+  const auto pages =
       read_numbers<float>(field.at("pages"), static_cast<std::size_t>(resident * layout.voxels_per_page()));
   if (!field.good()) return nullptr;
-  auto phi = field_from_file(geometry, band, shape, table, pages, "phi");
-  if (!phi) {
-    field.wrong(phi.error().message);
-    return nullptr;
-  }
-  return std::move(*phi);
+  const auto read = [&]() -> Result<std::shared_ptr<const solver::Field>> {
+    auto reader = FieldsReader::open(solver::Field::empty(geometry, band, shape), std::move(table),
+                                     static_cast<std::size_t>(resident), "phi");
+    if (!reader) return pass_on(reader);
+    reader->take(std::as_bytes(std::span(pages)));
+    auto fields = reader->fields();
+    if (!fields) return pass_on(fields);
+    return std::move(fields->front());
+  };
+  auto phi = read();
+  if (phi) return std::move(*phi);
+  field.wrong(phi.error().message);
+  return nullptr;
 }
 
 struct FromJson {
@@ -134,8 +137,8 @@ struct FromJson {
   Json operator()(const MaskStart& start) const {
     Json json{{"kind", "mask"},
               {"origin", start.origin},
-              {"grid", tidemark::document::to_json(start.mask->geometry)},
-              {"bits", pack_bits(start.mask->voxels)}};
+              {"grid", tidemark::document::to_json(start.mask->geometry())},
+              {"bits", pack_bytes(start.mask->bits())}};
     if (start.limit != nullptr) json["within_mm"] = start.limit->within_mm();
     return json;
   }

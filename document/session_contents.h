@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/bit_mask.h"
 #include "document/case.h"
 #include "document/saved_history.h"
 
@@ -20,7 +21,7 @@ struct SessionContents {
   std::shared_ptr<const solver::Field> phi;
   std::vector<Label> labels;
   std::shared_ptr<const PagedBytes> label_voxels;  // null: no voxel has a label
-  std::shared_ptr<const Mask> truth;  // the known answer, where it is not the study's own; null: none
+  std::shared_ptr<const BitMask> truth;  // the known answer, where it is not the study's own; null: none
   Curve curve;
   std::string view_state;
   SavedHistory history;  // empty: only the present state is known

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "core/atomic_file.h"
+#include "core/bit_mask.h"
 #include "document/curve_json.h"
 #include "document/drive_json.h"
 #include "document/field_bytes.h"
@@ -251,9 +255,17 @@ Result<std::shared_ptr<const solver::Field>> read_phi(ZipReader& archive, const 
   if (!field.good()) return pass_on(field.status());
   auto table = archive.read<std::int32_t>(kTable, static_cast<std::size_t>(layout.page_count()));
   if (!table) return pass_on(table);
-  auto pages = archive.read<float>(kPages, static_cast<std::size_t>(resident * layout.voxels_per_page()));
-  if (!pages) return pass_on(pages);
-  return field_from_file(geometry, band, shape, *table, *pages, file + ": phi");
+  auto reader = FieldsReader::open(solver::Field::empty(geometry, band, shape), std::move(*table),
+                                   static_cast<std::size_t>(resident), file + ": phi");
+  if (!reader) return pass_on(reader);
+  const auto bytes = static_cast<std::size_t>(resident * layout.voxels_per_page()) * sizeof(float);
+  TIDEMARK_TRY(archive.unpack(kPages, bytes, [&](std::span<const std::uint8_t> piece) -> Status {
+    reader->take(std::as_bytes(piece));
+    return {};
+  }));
+  auto fields = reader->fields();
+  if (!fields) return pass_on(fields);
+  return std::move(fields->front());
 }
 
 // The slices of a grid that are read or written at a time: those of a layer of pages.
@@ -289,17 +301,39 @@ Result<PagedBytes> read_layers(ZipReader& archive, std::string_view name, Index3
   return voxels;
 }
 
-ZipEntry layers_entry(std::string_view name, const PagedBytes& voxels) {
-  const Index3 size = voxels.size();
+// `read` gives the voxels of so many slices from one on.
+using ReadSlices = std::function<void(std::int64_t slice, std::int64_t slices, std::span<std::uint8_t>)>;
+
+ZipEntry layers_entry(std::string_view name, Index3 size, ReadSlices read) {
   const auto bytes = static_cast<std::size_t>(size.x * size.y * size.z);
   return {name, bytes,
-          [&voxels, size, layer = std::vector<std::uint8_t>(layer_voxels(size))](std::size_t number) mutable {
+          [read = std::move(read), size,
+           layer = std::vector<std::uint8_t>(layer_voxels(size))](std::size_t number) mutable {
             const std::int64_t slice = static_cast<std::int64_t>(number) * PagedBytes::kPageShape.z;
             const std::int64_t slices = std::min(PagedBytes::kPageShape.z, size.z - slice);
             if (slices <= 0) return std::span<const std::byte>();
-            voxels.read({0, 0, slice}, {size.x, size.y, slices}, layer.data());
-            return std::as_bytes(std::span(layer).first(static_cast<std::size_t>(size.x * size.y * slices)));
+            const auto voxels = std::span(layer).first(static_cast<std::size_t>(size.x * size.y * slices));
+            read(slice, slices, voxels);
+            return std::as_bytes(voxels);
           }};
+}
+
+ZipEntry labels_entry(const PagedBytes& labels) {
+  const Index3 size = labels.size();
+  return layers_entry(
+      kLabels, size,
+      [&labels, size](std::int64_t slice, std::int64_t slices, std::span<std::uint8_t> voxels) {
+        labels.read({0, 0, slice}, {size.x, size.y, slices}, voxels.data());
+      });
+}
+
+ZipEntry truth_entry(const BitMask& truth) {
+  const Geometry& grid = truth.geometry();
+  return layers_entry(
+      kTruth, grid.size,
+      [inside = inside_of(truth)](std::int64_t slice, std::int64_t, std::span<std::uint8_t> voxels) {
+        inside.read(inside.geometry.offset({0, 0, slice}), voxels);
+      });
 }
 
 Status read_label_voxels(ZipReader& archive, SessionContents& contents, const std::string& file) {
@@ -319,9 +353,18 @@ Status read_label_voxels(ZipReader& archive, SessionContents& contents, const st
 
 Status read_truth(ZipReader& archive, SessionContents& contents) {
   if (!archive.has(kTruth)) return {};
-  auto voxels = archive.read<std::uint8_t>(kTruth, static_cast<std::size_t>(contents.geometry.voxel_count()));
-  if (!voxels) return pass_on(voxels);
-  contents.truth = std::make_shared<const Mask>(Mask{contents.geometry, std::move(*voxels)});
+  std::optional<BitMask> truth;  // once it is known that the file can hold it
+  std::int64_t offset = 0;
+  const auto bytes = static_cast<std::size_t>(contents.geometry.voxel_count());
+  TIDEMARK_TRY(archive.unpack(kTruth, bytes, [&](std::span<const std::uint8_t> piece) -> Status {
+    if (!truth) truth.emplace(contents.geometry);
+    for (const std::uint8_t voxel : piece) {
+      if (voxel != 0) truth->add(offset);
+      ++offset;
+    }
+    return {};
+  }));
+  if (truth) contents.truth = std::make_shared<const BitMask>(std::move(*truth));
   return {};
 }
 
@@ -393,8 +436,8 @@ Status write_session(const SessionContents& contents, const std::filesystem::pat
   const FieldBytes phi(*contents.phi);
   std::vector<ZipEntry> entries{
       {kJson, std::as_bytes(std::span(json))}, phi.tables_entry(kTable), phi.pages_entry(kPages)};
-  if (contents.label_voxels) entries.push_back(layers_entry(kLabels, *contents.label_voxels));
-  if (contents.truth) entries.push_back({kTruth, std::as_bytes(std::span(contents.truth->voxels))});
+  if (contents.label_voxels) entries.push_back(labels_entry(*contents.label_voxels));
+  if (contents.truth) entries.push_back(truth_entry(*contents.truth));
   HistoryEntries history;
   if (what == InFile::all && !contents.history.empty()) {
     history = history_entries(contents);

@@ -81,7 +81,7 @@ struct FirstInside {
     return tidemark::inside_of(std::make_shared<const BitMask>(std::move(*region)));
   }
   Found operator()(const MaskStart& start) const {
-    TIDEMARK_TRY(check_grid(start.mask->geometry, source.geometry, "mask"));
+    TIDEMARK_TRY(check_grid(start.mask->geometry(), source.geometry, "mask"));
     return tidemark::inside_of(start.mask);
   }
   Found operator()(const FieldStart&) const { return std::nullopt; }

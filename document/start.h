@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/bit_mask.h"
 #include "core/inside.h"
 #include "core/progress.h"
 #include "solver/executor.h"
@@ -43,7 +44,7 @@ struct SpeedStart {
 // A mask with the name of where it comes from ("truth.nii.gz", "label Liver"). With a limit the surface never
 // leaves its neighbourhood: the mask is refined.
 struct MaskStart {
-  std::shared_ptr<const Mask> mask;
+  std::shared_ptr<const BitMask> mask;
   std::string origin;
   std::shared_ptr<const solver::MotionLimit> limit = nullptr;  // around the mask; null: none
   bool operator==(const MaskStart&) const = default;

@@ -13,8 +13,8 @@ bool is_meant(const imaging::Segment& segment, std::size_t place, std::int64_t l
   return static_cast<std::int64_t>(number) == label;
 }
 
-Result<Mask> true_segments(const std::filesystem::path& file, std::optional<std::int64_t> label,
-                           const Geometry& grid) {
+Result<BitMask> true_segments(const std::filesystem::path& file, std::optional<std::int64_t> label,
+                              const Geometry& grid) {
   auto segments = imaging::read_result(file, &grid);
   if (!segments) return pass_on(segments);
   if (label) {
@@ -27,13 +27,13 @@ Result<Mask> true_segments(const std::filesystem::path& file, std::optional<std:
     }
     segments->list = std::move(meant);
   }
-  return imaging::union_of(*segments);
+  return BitMask(imaging::union_of(*segments));
 }
 
 }  // namespace
 
-Result<Mask> load_truth(const std::filesystem::path& file, std::optional<std::int64_t> label,
-                        const Geometry& grid, const Progress& progress) {
+Result<BitMask> load_truth(const std::filesystem::path& file, std::optional<std::int64_t> label,
+                           const Geometry& grid, const Progress& progress) {
   if (imaging::result_form_of(file)) return true_segments(file, label, grid);
   const auto labels = imaging::load_volume(file, {}, progress);
   if (!labels) return pass_on(labels);
@@ -44,7 +44,9 @@ Result<Mask> load_truth(const std::filesystem::path& file, std::optional<std::in
     const bool inside = label ? value == static_cast<float>(*label) : value != 0.0F;
     mask.voxels[static_cast<std::size_t>(offset)] = inside ? 1 : 0;
   }
-  return imaging::onto_grid(std::move(mask), grid, file.string());
+  const auto placed = imaging::onto_grid(std::move(mask), grid, file.string());
+  if (!placed) return pass_on(placed);
+  return BitMask(*placed);
 }
 
 }  // namespace tidemark::document

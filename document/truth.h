@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/bit_mask.h"
 #include "core/progress.h"
-#include "core/volume.h"
 
 namespace tidemark::document {
 
@@ -14,7 +14,7 @@ namespace tidemark::document {
 // `label`, or the segment of that number (of a structure set the one at that place, from 1); without one all
 // voxels that are not 0, or all segments. Fails (ErrorKind::input) as the readers do, (ErrorKind::usage)
 // where there is no such segment.
-Result<Mask> load_truth(const std::filesystem::path& file, std::optional<std::int64_t> label,
-                        const Geometry& grid, const Progress& progress = {});
+Result<BitMask> load_truth(const std::filesystem::path& file, std::optional<std::int64_t> label,
+                           const Geometry& grid, const Progress& progress = {});
 
 }  // namespace tidemark::document

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/bit_mask.h"
 #include "document/case.h"
 #include "document/region_statistics.h"
 #include "engine/case_state.h"
@@ -17,7 +18,7 @@ namespace tidemark::engine {
 class CaseMeter {
  public:
   // Nothing is compared when it is null.
-  void compare_with(std::shared_ptr<const Mask> truth) {
+  void compare_with(std::shared_ptr<const BitMask> truth) {
     overlap_.reset();
     dice_.reset();
     if (truth) overlap_.emplace(std::move(truth));

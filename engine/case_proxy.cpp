@@ -93,7 +93,7 @@ CaseProxy::~CaseProxy() {
   });
 }
 
-void CaseProxy::compare_with(std::shared_ptr<const Mask> truth) {
+void CaseProxy::compare_with(std::shared_ptr<const BitMask> truth) {
   truth_ = std::move(truth);
   state_.dice.reset();
   use_truth();

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/bit_mask.h"
 #include "core/progress.h"
 #include "document/case.h"
 #include "document/drive.h"
@@ -43,7 +44,7 @@ struct RecordedStep;
 // What a session file holds of a case beside its history.
 struct Attachments {
   std::vector<std::shared_ptr<const document::CaseImage>> images;
-  std::shared_ptr<const Mask> truth;  // null: the study's own
+  std::shared_ptr<const BitMask> truth;  // null: the study's own
   std::vector<Measurement> measurements;
 
   bool operator==(const Attachments&) const = default;
@@ -55,7 +56,7 @@ struct RestoredCase {
   bool in_no_file = false;
 
   // The known answer: its own, else the study's. Null: neither has one.
-  [[nodiscard]] const std::shared_ptr<const Mask>& truth(const LoadedStudy& study) const {
+  [[nodiscard]] const std::shared_ptr<const BitMask>& truth(const LoadedStudy& study) const {
     return contents && contents->truth ? contents->truth : study.truth;
   }
 };
@@ -81,9 +82,9 @@ class CaseProxy : public QObject {
   [[nodiscard]] const std::shared_ptr<const LoadedStudy>& shared_study() const { return study_; }
   [[nodiscard]] const QString& name() const { return study_->name; }
   // The known answer, on the volume's grid: a phantom's own, or another one; null: none.
-  [[nodiscard]] const std::shared_ptr<const Mask>& truth() const { return truth_; }
+  [[nodiscard]] const std::shared_ptr<const BitMask>& truth() const { return truth_; }
   // Figures are compared with it from now on. It must be on the volume's grid.
-  void compare_with(std::shared_ptr<const Mask> truth);
+  void compare_with(std::shared_ptr<const BitMask> truth);
   [[nodiscard]] bool has_another_truth() const { return truth_ != study_->truth; }
   void compare_as_the_study() { compare_with(study_->truth); }
   // That the display asks for. Making it takes a while: CaseState has the one that is shown.
@@ -257,7 +258,7 @@ class CaseProxy : public QObject {
 
   Engine& engine_;
   std::shared_ptr<const LoadedStudy> study_;
-  std::shared_ptr<const Mask> truth_;
+  std::shared_ptr<const BitMask> truth_;
   Display display_;
   StateComparison comparison_;
   std::shared_ptr<WeakReceiver> weak_receiver_;

@@ -162,7 +162,7 @@ Status CaseRunner::report_change(Status outcome) {
   return outcome;
 }
 
-void CaseRunner::compare_with(std::shared_ptr<const Mask> truth) {
+void CaseRunner::compare_with(std::shared_ptr<const BitMask> truth) {
   meter_.compare_with(std::move(truth));
   case_->level_set().forget_dice();
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/bit_mask.h"
 #include "engine/case_history.h"
 #include "engine/case_meter.h"
 #include "engine/case_painter.h"
@@ -60,8 +61,8 @@ class CaseRunner : public std::enable_shared_from_this<CaseRunner> {
   Status report_edit(Status outcome);
   Status report_change(Status outcome);
   Status report_labels(Status outcome);
-  void compare_with(std::shared_ptr<const Mask> truth);  // null: with nothing
-  Status smooth_source(double sigma_mm);                 // in the background
+  void compare_with(std::shared_ptr<const BitMask> truth);  // null: with nothing
+  Status smooth_source(double sigma_mm);                    // in the background
   Status undo();
   Status go_to(std::uint64_t state);
   Status report_acceptance(Result<document::Acceptance> accepted);

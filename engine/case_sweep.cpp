@@ -40,7 +40,7 @@ ShownImage shown_agreement(const document::Agreement& agreement, const Geometry&
 }
 
 Result<std::shared_ptr<const SweepOutcome>> computed(const document::SweepStart& start,
-                                                     document::SweepOptions options, const Mask* truth,
+                                                     document::SweepOptions options, const BitMask* truth,
                                                      const WindowLevel& window, const Progress& progress) {
   if (truth != nullptr) options.truth = std::make_shared<const Region>(*truth);
   auto sweep = document::run_sweep(start, options, progress);

@@ -5,7 +5,7 @@
 namespace tidemark::engine {
 
 void LessonMeter::measure(const std::vector<document::LessonMeasure>& measures, const CaseState& state,
-                          std::shared_ptr<const Mask> truth) {
+                          std::shared_ptr<const BitMask> truth) {
   run(
       [measures, truth = std::move(truth), phi = state.phi, steps = state.step, rests = state.converged,
        time_step = state.time_step,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/bit_mask.h"
 #include "document/lesson.h"
 #include "engine/case_state.h"
 #include "engine/job_runner.h"
@@ -17,7 +18,7 @@ class LessonMeter : public JobRunner {
 
   // Of a state at rest, in which phi is the present one. Ends with measured() or failed().
   void measure(const std::vector<document::LessonMeasure>& measures, const CaseState& state,
-               std::shared_ptr<const Mask> truth);
+               std::shared_ptr<const BitMask> truth);
   void cancel() { give_up(); }
 
  signals:

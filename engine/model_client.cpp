@@ -63,7 +63,7 @@ void ModelClient::make_start(std::shared_ptr<const ModelFinding> finding, int la
       [=](const Progress&) -> Result<document::Start> {
         document::Start start;
         start.from = document::MaskStart{
-            std::make_shared<const Mask>(imaging::mask_of(finding->answer, label)), finding->model};
+            std::make_shared<const BitMask>(imaging::mask_of(finding->answer, label)), finding->model};
         return start;
       },
       [this](const document::Start& start) { emit start_made(start); });

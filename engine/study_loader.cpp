@@ -88,7 +88,7 @@ Result<LoadedStudy> make_phantom_study(const std::string& name, const Progress& 
   study.parameters.target = phantom->target;
   study.parameters.range = phantom->range;
   study.parameters.alpha = phantom->alpha;
-  study.truth = std::make_shared<const Mask>(std::move(phantom->truth));
+  study.truth = std::make_shared<const BitMask>(phantom->truth);
   study.start = PhantomStart{phantom->seed, phantom->init_threshold};
   progress(0.0, "measuring values");
   study.summary = summarise(*study.volume, progress);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bit_mask.h"
 #include "core/volume.h"
 #include "document/origin.h"
 #include "engine/job_runner.h"
@@ -41,7 +42,7 @@ struct LoadedStudy {
   std::string date;               // of the study: "2004-07-31"; empty when unknown
   solver::Parameters parameters;  // that suit some even, bright tissue in the middle, or the phantom
   std::optional<PhantomStart> start;
-  std::shared_ptr<const Mask> truth;  // of a phantom, on the volume's grid; null: not known
+  std::shared_ptr<const BitMask> truth;  // of a phantom, on the volume's grid; null: not known
   std::shared_ptr<const imaging::StudyArchive>
       archive;  // keeps the files of a series that lies in an archive
 };

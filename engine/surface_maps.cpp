@@ -60,9 +60,10 @@ double distance_range_mm(const Geometry& geometry) {
   return std::ceil(kSpacings * glm::compMax(geometry.spacing_mm));
 }
 
-std::shared_ptr<const solver::SpeedFunction> truth_error_map(const Mask& truth) {
-  const double within = range_in_spacings(truth.geometry);
-  return solver::distance_map(solver::distance_transform(truth, within + kBeyond), within);
+std::shared_ptr<const solver::SpeedFunction> truth_error_map(const BitMask& truth) {
+  const double within = range_in_spacings(truth.geometry());
+  return solver::distance_map(solver::distance_transform(tidemark::inside_of(truth), within + kBeyond),
+                              within);
 }
 
 std::shared_ptr<const solver::SpeedFunction> spread_map(const document::Agreement& runs,

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "core/volume.h"
+#include "core/bit_mask.h"
 #include "document/agreement.h"
 #include "solver/speed/speed_function.h"
 
@@ -16,7 +16,7 @@ enum class SurfaceMap { none, truth_error, spread };
 [[nodiscard]] double distance_range_mm(const Geometry& geometry);
 
 // How far voxels are from a known answer's surface: -1 inside to 1 outside, at that range.
-[[nodiscard]] std::shared_ptr<const solver::SpeedFunction> truth_error_map(const Mask& truth);
+[[nodiscard]] std::shared_ptr<const solver::SpeedFunction> truth_error_map(const BitMask& truth);
 
 // How far apart the surfaces of several runs are there, from the innermost to the outermost: -1 where they
 // are one, 1 from that range on. It grows, too, away from all of them. Surfaces that have vanished do not

@@ -16,19 +16,19 @@ constexpr double kBand = 2.0;       // nothing but where the surface lies is tak
 // Made once, by who first asks, which is never the thread of the user interface.
 class TruthSurface {
  public:
-  explicit TruthSurface(std::shared_ptr<const Mask> mask) : mask_(std::move(mask)) {}
+  explicit TruthSurface(std::shared_ptr<const BitMask> mask) : mask_(std::move(mask)) {}
 
-  [[nodiscard]] const std::shared_ptr<const Mask>& mask() const { return mask_; }
+  [[nodiscard]] const std::shared_ptr<const BitMask>& mask() const { return mask_; }
   [[nodiscard]] const solver::MeasuredSurface& surface() const {
     std::call_once(once_, [this] {
       // Nothing can stop it.
-      surface_.emplace(*solver::MeasuredSurface::of(solver::distance_transform(*mask_, kBand)));
+      surface_.emplace(*solver::MeasuredSurface::of(solver::distance_transform(inside_of(*mask_), kBand)));
     });
     return *surface_;
   }
 
  private:
-  std::shared_ptr<const Mask> mask_;
+  std::shared_ptr<const BitMask> mask_;
   mutable std::once_flag once_;
   mutable std::optional<solver::MeasuredSurface> surface_;
 };
@@ -38,7 +38,7 @@ TruthComparison::TruthComparison(QObject* parent)
       question_(
           this, &TruthComparison::compare, [this] { emit answered(); }, kComparisonRest) {}
 
-void TruthComparison::ask(const std::shared_ptr<const Mask>& truth,
+void TruthComparison::ask(const std::shared_ptr<const BitMask>& truth,
                           std::shared_ptr<const solver::Field> phi) {
   if (!truth_ || truth_->mask() != truth) {
     question_.forget();

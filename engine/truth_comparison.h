@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/bit_mask.h"
 #include "engine/newest_question.h"
 #include "solver/surface_agreement.h"
 
@@ -20,7 +21,7 @@ class TruthComparison : public QObject {
 
   // Neither is null, and they have one grid. The answer is that of the newest phi that was asked for, or of
   // one shortly before.
-  void ask(const std::shared_ptr<const Mask>& truth, std::shared_ptr<const solver::Field> phi);
+  void ask(const std::shared_ptr<const BitMask>& truth, std::shared_ptr<const solver::Field> phi);
   void forget();
   // Unset: not known yet, or one of them has no surface.
   [[nodiscard]] std::optional<solver::SurfaceDistance> distance() const;

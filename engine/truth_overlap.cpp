@@ -13,10 +13,9 @@ void TruthOverlap::begin(const solver::Field& phi) {
   in_truth_ = 0;
   for (std::int64_t page = 0; page < layout_.page_count(); ++page) {
     std::int64_t& count = in_page_[static_cast<std::size_t>(page)];
-    for_each_row(truth_->geometry, layout_, page,
+    for_each_row(truth_->geometry(), layout_, page,
                  [&](std::int64_t offset, std::int64_t length, std::int64_t) {
-                   for (std::int64_t i = 0; i < length; ++i)
-                     count += truth_->voxels[static_cast<std::size_t>(offset + i)] != 0 ? 1 : 0;
+                   for (std::int64_t i = 0; i < length; ++i) count += truth_->contains(offset + i) ? 1 : 0;
                  });
     in_truth_ += count;
   }
@@ -30,13 +29,12 @@ TruthOverlap::Counts TruthOverlap::count(const SharedPages& pages, std::int64_t 
     return {valid.x * valid.y * valid.z, in_page_[static_cast<std::size_t>(page)]};
   }
   Counts counts;
-  for_each_row(truth_->geometry, layout_, page,
+  for_each_row(truth_->geometry(), layout_, page,
                [&](std::int64_t offset, std::int64_t length, std::int64_t index) {
-                 const std::uint8_t* truth = truth_->voxels.data() + offset;
                  for (std::int64_t i = 0; i < length; ++i) {
                    const std::int64_t is_inside = values[index + i] > 0.0F ? 1 : 0;
                    counts.inside += is_inside;
-                   counts.common += truth[i] != 0 ? is_inside : 0;
+                   counts.common += truth_->contains(offset + i) ? is_inside : 0;
                  }
                });
   return counts;

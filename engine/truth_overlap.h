@@ -4,13 +4,14 @@
 #include <memory>
 #include <vector>
 
+#include "core/bit_mask.h"
 #include "solver/field.h"
 
 namespace tidemark::engine {
 
 class TruthOverlap {
  public:
-  explicit TruthOverlap(std::shared_ptr<const Mask> truth) : truth_(std::move(truth)) {}
+  explicit TruthOverlap(std::shared_ptr<const BitMask> truth) : truth_(std::move(truth)) {}
 
   // 2 |A and B| / (|A| + |B|) of what is inside phi and the truth; 1 when both are empty. phi must be on the
   // truth's grid. Voxels are looked at in those stored pages alone that it does not share with the phi
@@ -25,7 +26,7 @@ class TruthOverlap {
   void begin(const solver::Field& phi);
   [[nodiscard]] Counts count(const SharedPages& pages, std::int64_t page) const;
 
-  std::shared_ptr<const Mask> truth_;
+  std::shared_ptr<const BitMask> truth_;
   PageLayout layout_;                  // as of the next two
   std::vector<std::int64_t> in_page_;  // voxels of the truth
   std::int64_t in_truth_ = 0;

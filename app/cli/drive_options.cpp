@@ -121,7 +121,7 @@ Status add_mask(solver::Constraints& constraints, const std::optional<std::strin
   if (!file) return {};
   const auto mask = read_mask(*file, study, console);
   if (!mask) return pass_on(mask);
-  constraints.set(*mask, what);
+  constraints.set(BitMask(*mask), what);
   return {};
 }
 

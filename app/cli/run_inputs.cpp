@@ -20,7 +20,7 @@ class Inputs {
   Inputs(SegmentOptions& options, bool wants_checksum, Console& console, RunResults& results)
       : options_(options), wants_checksum_(wants_checksum), console_(console), results_(results) {}
 
-  Result<std::optional<Mask>> read();
+  Result<std::optional<BitMask>> read();
 
  private:
   Status load();
@@ -33,10 +33,10 @@ class Inputs {
   Console& console_;
   RunResults& results_;
   StudyPlace study_;
-  std::optional<Mask> truth_;
+  std::optional<BitMask> truth_;
 };
 
-Result<std::optional<Mask>> Inputs::read() {
+Result<std::optional<BitMask>> Inputs::read() {
   for (const auto step : {&Inputs::load, &Inputs::load_truth, &Inputs::suggest, &Inputs::make_recipe}) {
     TIDEMARK_TRY((this->*step)());
     if (console_.interrupted()) return cancelled_error();
@@ -151,8 +151,8 @@ Status Inputs::make_recipe() {
 
 }  // namespace
 
-Result<std::optional<Mask>> read_inputs(SegmentOptions& options, bool wants_checksum, Console& console,
-                                        RunResults& results) {
+Result<std::optional<BitMask>> read_inputs(SegmentOptions& options, bool wants_checksum, Console& console,
+                                           RunResults& results) {
   return Inputs(options, wants_checksum, console, results).read();
 }
 

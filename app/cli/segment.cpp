@@ -48,7 +48,7 @@ class Segmentation {
   Console& console_;
   SegmentOptions options_;
   ResultWriter writer_;
-  std::optional<Mask> truth_;  // of --truth
+  std::optional<BitMask> truth_;  // of --truth
   RunResults results_;
 };
 
@@ -91,7 +91,7 @@ Status Segmentation::compare_with_truth() {
   if (!truth_) return {};
   RunFigures& figures = results_.figures;
   figures.dice = dice(solver::inside_region(results_.phi), Region(*truth_));
-  const solver::Field truth = solver::distance_transform(*truth_, kTruthBand);
+  const solver::Field truth = solver::distance_transform(inside_of(*truth_), kTruthBand);
   auto agreement = solver::agreement(results_.phi, truth, console_.progress());
   if (!agreement) return pass_on(agreement);
   figures.truth_distance = agreement->distance;

@@ -139,7 +139,7 @@ Result<document::Start> make_start(const StartOptions& options, const StudyPlace
   if (options.mask) {
     auto mask = read_mask(*options.mask, study, console);
     if (!mask) return pass_on(mask);
-    start.from = document::MaskStart{std::make_shared<const Mask>(std::move(*mask)),
+    start.from = document::MaskStart{std::make_shared<const BitMask>(*mask),
                                      std::filesystem::path(*options.mask).filename().string()};
   }
   if (options.phi) {

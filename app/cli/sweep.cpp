@@ -91,7 +91,7 @@ class SweepCommand {
   Outputs outputs_;
   std::vector<document::SweepAxis> axes_;
   RunResults inputs_;
-  std::optional<Mask> truth_;
+  std::optional<BitMask> truth_;
 };
 
 // All runs have one start: no axis may change what it is made from.

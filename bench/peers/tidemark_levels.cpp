@@ -18,7 +18,7 @@ Result<Convergence> converge(const Problem& problem) {
   if (!executor) return pass_on(executor);
   document::Start start;
   if (problem.seed) start.seeds.push_back(*problem.seed);
-  if (problem.start) start.from = document::MaskStart{std::make_shared<const Mask>(*problem.start), {}};
+  if (problem.start) start.from = document::MaskStart{std::make_shared<const BitMask>(*problem.start), {}};
   start.levels = solver::levels_for(problem.source->geometry);
   auto coarse = document::run_coarse_levels(
       start,

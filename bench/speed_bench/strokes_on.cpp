@@ -42,7 +42,7 @@ class Painter {
 
  private:
   [[nodiscard]] bool is_inside(Index3 voxel) const {
-    return grid_.contains(voxel) && study_.truth->voxels[static_cast<std::size_t>(grid_.offset(voxel))] != 0;
+    return grid_.contains(voxel) && study_.truth->contains(grid_.offset(voxel));
   }
 
   const engine::LoadedStudy& study_;

@@ -32,7 +32,7 @@ Study study_of(imaging::Phantom phantom, QString name) {
   auto study = std::make_shared<engine::LoadedStudy>(*study_with(std::move(phantom.volume), std::move(name)));
   study->parameters.target = phantom.target;
   study->parameters.range = phantom.range;
-  study->truth = std::make_shared<const Mask>(std::move(phantom.truth));
+  study->truth = std::make_shared<const BitMask>(phantom.truth);
   study->start = engine::PhantomStart{phantom.seed, phantom.init_threshold};
   return study;
 }

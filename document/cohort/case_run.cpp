@@ -187,8 +187,7 @@ Status Case::start_from_mask() {
   if (!loaded) return pass_on(loaded);
   for (const std::string& change : loaded->changes) status_.remarks.push_back("mask: " + change);
   remark_frame("mask", loaded->frames_of_reference);
-  document::MaskStart start{std::make_shared<const Mask>(std::move(loaded->mask)),
-                            row_.mask.filename().string()};
+  document::MaskStart start{std::make_shared<const BitMask>(loaded->mask), row_.mask.filename().string()};
   const auto within_mm = row_.within_mm       ? row_.within_mm
                          : shared_ != nullptr ? shared_->within_mm()
                                               : std::nullopt;

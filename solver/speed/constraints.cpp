@@ -120,9 +120,9 @@ void Constraints::set(const std::function<bool(Index3)>& chosen, Index3 first, I
   });
 }
 
-void Constraints::set(const Mask& mask, Constraint what) {
-  set([&](Index3 voxel) { return mask.voxels[static_cast<std::size_t>(mask.geometry.offset(voxel))] != 0; },
-      Index3(0), layout_.domain_size() - Index3(1), what);
+void Constraints::set(const BitMask& mask, Constraint what) {
+  set([&](Index3 voxel) { return mask.contains(mask.geometry().offset(voxel)); }, Index3(0),
+      layout_.domain_size() - Index3(1), what);
 }
 
 void Constraints::set(const Geometry& geometry, const Sphere& sphere, Constraint what) {

@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
+#include "core/bit_mask.h"
 #include "core/paging/page_layout.h"
 #include "core/paging/shared_pages.h"
-#include "core/volume.h"
 #include "solver/field.h"
 #include "solver/sphere.h"
 
@@ -81,9 +81,9 @@ class Constraints {
   [[nodiscard]] bool empty() const { return pages_.stored() == 0; }
   [[nodiscard]] std::int64_t count(Constraint what) const;  // voxels
 
-  // Sets the voxels of a mask on the same grid (not 0), those whose centres are within a sphere, or those of
+  // Sets the voxels of a mask on the same grid, those whose centres are within a sphere, or those of
   // a list; with Constraint::none they are free again.
-  void set(const Mask& mask, Constraint what);
+  void set(const BitMask& mask, Constraint what);
   void set(const Geometry& geometry, const Sphere& sphere, Constraint what);
   void set(const std::vector<Index3>& voxels, Constraint what);  // on the grid
   void set_page(std::int64_t virtual_page, const Page& page);

@@ -61,10 +61,10 @@ std::shared_ptr<const Constraints> constraints_of(const Field& distance, double 
 
 const MotionLimit::Made& MotionLimit::made() const {
   std::call_once(once_, [this] {
-    const glm::dvec3& spacing = mask_->geometry.spacing_mm;
+    const glm::dvec3& spacing = mask_->geometry().spacing_mm;
     const double within = within_mm_ / std::min({spacing.x, spacing.y, spacing.z});
     // Beyond the limit and what is written of it, nothing needs to be known.
-    Field distance = distance_transform(*mask_, within + 2.0 * static_cast<double>(kLimitReach));
+    Field distance = distance_transform(inside_of(*mask_), within + 2.0 * static_cast<double>(kLimitReach));
     made_.constraints = constraints_of(distance, within);
     made_.change = distance_map(std::move(distance), within);
   });

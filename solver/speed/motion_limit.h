@@ -5,7 +5,7 @@
 #include <mutex>
 #include <utility>
 
-#include "core/volume.h"
+#include "core/bit_mask.h"
 #include "solver/field.h"
 #include "solver/speed/constraints.h"
 #include "solver/speed/speed_function.h"
@@ -21,7 +21,7 @@ class MotionLimit {
  public:
   // `within_mm` > 0. What follows from it is made when somebody first asks: a start that is only read costs
   // nothing. All methods may be called from several threads at once.
-  MotionLimit(std::shared_ptr<const Mask> mask, double within_mm)
+  MotionLimit(std::shared_ptr<const BitMask> mask, double within_mm)
       : mask_(std::move(mask)), within_mm_(within_mm) {}
 
   [[nodiscard]] double within_mm() const { return within_mm_; }
@@ -38,7 +38,7 @@ class MotionLimit {
   };
   [[nodiscard]] const Made& made() const;
 
-  std::shared_ptr<const Mask> mask_;
+  std::shared_ptr<const BitMask> mask_;
   double within_mm_;
   mutable std::once_flag once_;
   mutable Made made_;

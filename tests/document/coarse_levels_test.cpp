@@ -70,7 +70,7 @@ class CoarseLevelsTest : public QObject {
     const auto volume = lumpy_volume({61, 58, 49});
     document::Recipe recipe = recipe_in_levels(*volume, 1);
     const auto mask =
-        std::make_shared<const Mask>(at_rest(recipe, volume, solver::ExecutorKind::host).phi.mask());
+        std::make_shared<const BitMask>(at_rest(recipe, volume, solver::ExecutorKind::host).phi.mask());
     std::vector<document::Start> starts(3);
     starts[0].from = document::ThresholdStart{700.0, 2000.0};
     starts[1].from = document::FloodStart{{30, 28, 24}, 700.0, 2000.0};
@@ -177,10 +177,8 @@ class CoarseLevelsTest : public QObject {
   // Half of the resolution has no voxel for it.
   void what_is_too_small_begins_on_the_finest_level() {
     const auto volume = lumpy_volume({61, 58, 49});
-    auto mask = std::make_shared<Mask>();
-    mask->geometry = volume->geometry;
-    mask->voxels.assign(static_cast<std::size_t>(mask->geometry.voxel_count()), 0);
-    mask->voxels[static_cast<std::size_t>(mask->geometry.offset({30, 28, 24}))] = 1;
+    auto mask = std::make_shared<BitMask>(volume->geometry);
+    mask->add(volume->geometry.offset({30, 28, 24}));
     document::Recipe recipe = recipe_in_levels(*volume, 2);
     recipe.start.seeds.clear();
     recipe.start.from = document::MaskStart{mask, "one voxel"};

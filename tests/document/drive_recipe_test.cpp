@@ -132,7 +132,7 @@ class DriveRecipeTest : public QObject {
     const auto volume = document->volume();
     run(level_set, 5);
     const std::vector<float> before = values_of(level_set);
-    const auto mask = std::make_shared<const Mask>(level_set.checkpoint().value()->mask());
+    const auto mask = std::make_shared<const BitMask>(level_set.checkpoint().value()->mask());
     constexpr double kWithin = 1.5;
     document::Start start;
     start.from = document::limited({mask, "mask.nrrd"}, kWithin).value();
@@ -143,7 +143,7 @@ class DriveRecipeTest : public QObject {
     drive(level_set, with_ball(level_set.drive(), *volume, {9, 0, 0}, solver::Constraint::wall));
     run(level_set, 40);
     const std::vector<float> phi = values_of(level_set);
-    const solver::Field distance = solver::distance_transform(*mask, 6.0);
+    const solver::Field distance = solver::distance_transform(inside_of(*mask), 6.0);
     const std::vector<float> far = distance.dense();
     std::int64_t outside = 0;
     for (std::size_t i = 0; i < phi.size(); ++i) {
@@ -183,7 +183,7 @@ class DriveRecipeTest : public QObject {
   }
 
   void a_limit_that_is_none_is_refused() {
-    const auto mask = std::make_shared<const Mask>();
+    const auto mask = std::make_shared<const BitMask>(Geometry());
     for (const double within_mm : {0.0, -1.0, std::nan("")}) {
       const auto refined = document::limited({mask, {}}, within_mm);
       QVERIFY(!refined && refined.error().kind == ErrorKind::usage);

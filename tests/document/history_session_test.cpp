@@ -61,7 +61,8 @@ std::unique_ptr<document::Case> branched_case(solver::ExecutorKind kind = solver
   must(level_set.set_drive(drive));
   run(level_set, 5);
   document::Start other;
-  other.from = document::MaskStart{std::make_shared<const Mask>(level_set.checkpoint().value()->mask()), "m"};
+  other.from =
+      document::MaskStart{std::make_shared<const BitMask>(level_set.checkpoint().value()->mask()), "m"};
   must(level_set.begin(other));
   run(level_set, 6);
   must(document->history().close());

@@ -186,7 +186,7 @@ class HistoryTest : public QObject {
     QCOMPARE(level_set.begin(outside).error().kind, ErrorKind::usage);
     document::Start other_grid;
     Mask mask{lumpy_volume({10, 10, 10})->geometry, std::vector<std::uint8_t>(1000, 1)};
-    other_grid.from = document::MaskStart{std::make_shared<const Mask>(mask), "small"};
+    other_grid.from = document::MaskStart{std::make_shared<const BitMask>(mask), "small"};
     QCOMPARE(level_set.begin(other_grid).error().kind, ErrorKind::usage);
     QVERIFY(Seen(level_set) == before);
     QCOMPARE(undo_text(*document), std::string("evolution, 7 steps"));

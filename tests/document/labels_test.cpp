@@ -64,7 +64,7 @@ class LabelsTest : public QObject {
     QCOMPARE(segments.list.size(), std::size_t{2});
     QVERIFY(segments.list[0].meaning == imaging::find_segment_meaning("liver").value());  // as its name says
     QVERIFY(segments.list[1].meaning == chosen.meaning);
-    QCOMPARE(segments.list[1].count(), labels.mask(tumour).count());
+    QCOMPARE(segments.list[1].count(), labels.region(tumour).count());
 
     document::Labels read(small_grid());
     const std::uint8_t bone = read.add("Bone").value();
@@ -76,8 +76,9 @@ class LabelsTest : public QObject {
     QCOMPARE(read.list().size(), std::size_t{3});
     QCOMPARE(read.list()[1].name, std::string("Liver"));
     QVERIFY(read.list()[2].colour == labels.find(tumour)->colour);
-    QCOMPARE(read.mask(read.list()[1].id).count(), labels.mask(liver).count() - 1);  // one voxel is locked
-    QVERIFY(read.mask(read.list()[2].id).voxels == labels.mask(tumour).voxels);
+    QCOMPARE(read.region(read.list()[1].id).count(),
+             labels.region(liver).count() - 1);  // one voxel is locked
+    QVERIFY(read.region(read.list()[2].id) == labels.region(tumour));
     QVERIFY(read.list()[2].meaning == chosen.meaning);
 
     Geometry larger = small_grid();
@@ -99,7 +100,7 @@ class LabelsTest : public QObject {
         imaging::segments_of(mask_of(box({5, 5, 5}, {7, 7, 7}), labels.geometry()), "Cyst").list.front());
     QCOMPARE(failure(document::add_segments(labels, two)), QString());
     QCOMPARE(labels.list().size(), std::size_t{3});
-    QCOMPARE(labels.mask(2).count(), std::int64_t{63});  // the later one has what both hold
+    QCOMPARE(labels.region(2).count(), std::int64_t{63});  // the later one has what both hold
     const std::vector<std::uint8_t> after = labels.voxels().voxels();
     QCOMPARE(document::describe(*history.undo_description()), std::string("import of Left kidney, Cyst"));
     QCOMPARE(failure(history.undo()), QString());
@@ -128,20 +129,20 @@ class LabelsTest : public QObject {
     const Region left = box({0, 0, 0}, {5, 5, 5});
     const Region right = box({4, 0, 0}, {9, 5, 5});
     QCOMPARE(failure(labels.accept(left, liver)), QString());
-    QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
+    QCOMPARE(labels.region(liver).count(), std::int64_t{216});
     document::Label locked = *labels.find(liver);
     locked.locked = true;
     QCOMPARE(failure(labels.set(locked)), QString());
     QCOMPARE(failure(labels.accept(right, tumour, document::Take::others_too)), QString());
-    QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
-    QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
+    QCOMPARE(labels.region(liver).count(), std::int64_t{216});
+    QCOMPARE(labels.region(tumour).count(), std::int64_t{144});
     QCOMPARE(labels.accept(right, liver).error().kind, ErrorKind::usage);
     QCOMPARE(labels.remove(liver).error().kind, ErrorKind::usage);
     locked.locked = false;
     QCOMPARE(failure(labels.set(locked)), QString());
     QCOMPARE(failure(labels.accept(right, tumour, document::Take::others_too)), QString());
-    QCOMPARE(labels.mask(liver).count(), std::int64_t{144});
-    QCOMPARE(labels.mask(tumour).count(), std::int64_t{216});
+    QCOMPARE(labels.region(liver).count(), std::int64_t{144});
+    QCOMPARE(labels.region(tumour).count(), std::int64_t{216});
   }
 
   void a_label_takes_free_voxels_unless_it_is_to_take_all() {
@@ -151,14 +152,14 @@ class LabelsTest : public QObject {
     QCOMPARE(labels.accept(box({0, 0, 0}, {5, 5, 5}), liver).value().taken, std::int64_t{216});
     const Region right = box({4, 0, 0}, {9, 5, 5});
     const document::Acceptance careful = labels.accept(right, tumour).value();
-    QCOMPARE(labels.mask(liver).count(), std::int64_t{216});
-    QCOMPARE(labels.mask(tumour).count(), std::int64_t{144});
+    QCOMPARE(labels.region(liver).count(), std::int64_t{216});
+    QCOMPARE(labels.region(tumour).count(), std::int64_t{144});
     QCOMPARE(careful.label, std::string("Tumour"));
     QCOMPARE(careful.taken, std::int64_t{144});
     QCOMPARE(careful.from_others, std::int64_t{0});
     QCOMPARE(careful.left, std::int64_t{72});
     const document::Acceptance all = labels.accept(right, tumour, document::Take::others_too).value();
-    QCOMPARE(labels.mask(liver).count(), std::int64_t{144});
+    QCOMPARE(labels.region(liver).count(), std::int64_t{144});
     QCOMPARE(all.taken, std::int64_t{216});
     QCOMPARE(all.from_others, std::int64_t{72});
     QCOMPARE(all.left, std::int64_t{0});
@@ -170,9 +171,9 @@ class LabelsTest : public QObject {
     QCOMPARE(failure(labels.accept(box({0, 0, 0}, {1, 1, 1}), id)), QString());
     QCOMPARE(failure(labels.accept(box({2, 0, 0}, {3, 1, 1}), id, document::Take::free_voxels, false)),
              QString());
-    QCOMPARE(labels.mask(id).count(), std::int64_t{16});
+    QCOMPARE(labels.region(id).count(), std::int64_t{16});
     QCOMPARE(failure(labels.accept(box({2, 0, 0}, {3, 1, 1}), id)), QString());
-    QCOMPARE(labels.mask(id).count(), std::int64_t{8});
+    QCOMPARE(labels.region(id).count(), std::int64_t{8});
   }
 
   void what_cannot_be_done_is_refused() {
@@ -208,8 +209,8 @@ class LabelsTest : public QObject {
       std::vector<std::uint8_t> masks;  // of label 1 and 2
     };
     const auto seen = [&] {
-      SeenLabels now{labels.list(), labels.mask(1).voxels};
-      const Mask second = labels.mask(2);
+      SeenLabels now{labels.list(), mask_of(labels.region(1), labels.geometry()).voxels};
+      const Mask second = mask_of(labels.region(2), labels.geometry());
       now.masks.insert(now.masks.end(), second.voxels.begin(), second.voxels.end());
       return now;
     };
@@ -306,7 +307,7 @@ class LabelsTest : public QObject {
     const auto first = document->accept_surface(liver, document::Take::free_voxels, "Label 2");
     QVERIFY(first && first->kept.empty());
     QVERIFY(first->added > 20 && first->added == first->taken && first->given_up == 0);
-    const Mask before = document->labels().mask(liver);
+    const Region before = document->labels().region(liver);
     // The same once more: nothing is new.
     QCOMPARE(document->accept_surface(liver, document::Take::free_voxels, "Label 2")->added, std::int64_t{0});
 
@@ -316,8 +317,8 @@ class LabelsTest : public QObject {
     QCOMPARE(second->label, std::string("Label 2"));
     QCOMPARE(second->kept, std::string("Liver"));
     QCOMPARE(document->labels().list().size(), std::size_t{2});
-    QVERIFY(document->labels().mask(liver).voxels == before.voxels);
-    QCOMPARE(document->labels().mask(document->labels().list().back().id).count(), second->added);
+    QVERIFY(document->labels().region(liver) == before);
+    QCOMPARE(document->labels().region(document->labels().list().back().id).count(), second->added);
     QCOMPARE(failure(document->undo()), QString());  // both at once
     QCOMPARE(document->labels().list().size(), std::size_t{1});
     // Who names no other label means this one, whatever it had.
@@ -335,7 +336,7 @@ class LabelsTest : public QObject {
     const Geometry& grid = document->volume()->geometry;
     const std::uint8_t liver = document->labels().add("Liver").value();
     QVERIFY(document->accept_surface(liver, document::Take::free_voxels));
-    const Mask before = document->labels().mask(liver);
+    const Region before = document->labels().region(liver);
     const solver::Sphere all{grid.to_patient(0.5 * glm::dvec3(grid.size)), 1000.0};
     QCOMPARE(failure(document->level_set().paint(all, solver::Brush::erase)), QString());
     for (const std::uint8_t label : {liver, std::uint8_t{0}}) {
@@ -343,7 +344,7 @@ class LabelsTest : public QObject {
       QVERIFY(!accepted && accepted.error().kind == ErrorKind::usage);
       QVERIFY(QString::fromStdString(accepted.error().message).contains("no inside"));
     }
-    QVERIFY(document->labels().mask(liver).voxels == before.voxels);
+    QVERIFY(document->labels().region(liver) == before);
     QCOMPARE(document->labels().list().size(), std::size_t{1});
   }
 
@@ -353,10 +354,10 @@ class LabelsTest : public QObject {
     const Mask surface = document->level_set().executor().snapshot().value().mask();
     const std::uint8_t id = document->labels().add("Liver").value();
     QCOMPARE(failure(document->accept_surface(id, document::Take::free_voxels)), QString());
-    QVERIFY(document->labels().mask(id).voxels == surface.voxels);
+    QVERIFY(document->labels().region(id) == Region(surface));
     QCOMPARE(document::describe(*document->history().undo_description()), std::string("accept into Liver"));
     QCOMPARE(failure(document->undo()), QString());
-    QCOMPARE(document->labels().mask(id).count(), std::int64_t{0});
+    QCOMPARE(document->labels().region(id).count(), std::int64_t{0});
     QCOMPARE(failure(document->redo()), QString());
     run(document->level_set(), 5);
     QCOMPARE(failure(document->begin_from_label(id)), QString());

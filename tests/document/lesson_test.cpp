@@ -87,7 +87,7 @@ class LessonTest : public QObject {
     QCOMPARE(text.error().kind, ErrorKind::usage);
     QCOMPARE(failure(text), QString("parts[1].title: more than 300 bytes are not read"));
     lesson = lesson_of(good_lesson());
-    document::MaskStart mask{std::make_shared<const Mask>(), "mine"};
+    document::MaskStart mask{std::make_shared<const BitMask>(Geometry()), "mine"};
     lesson.start->from = mask;
     QVERIFY(failure(lesson.to_text()).startsWith("start.from"));
   }

@@ -147,12 +147,11 @@ class OutcomeTest : public QObject {
   }
 
   void a_refined_mask_that_is_held_in_like_tissue_is_offered_no_range() {
-    auto mask = std::make_shared<Mask>();
-    mask->geometry = halves()->geometry;
-    for (std::int64_t i = 0; i < mask->geometry.voxel_count(); ++i) {
+    auto mask = std::make_shared<BitMask>(halves()->geometry);
+    for (std::int64_t i = 0; i < mask->geometry().voxel_count(); ++i) {
       const Index3 voxel(i % 40, i / 40 % 40, i / 1600);
       const Index3 off = glm::abs(voxel - Index3(10, 20, 20));
-      mask->voxels.push_back(std::max({off.x, off.y, off.z}) <= 4 ? 1 : 0);
+      if (std::max({off.x, off.y, off.z}) <= 4) mask->add(i);
     }
     document::Start start;
     start.from = document::limited({mask, "box"}, 3.0).value();

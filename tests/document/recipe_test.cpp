@@ -51,7 +51,7 @@ Json good_json() {
     run(document->level_set(), 4);
     document::Start start = seed_in(*document->volume());
     Mask mask = document->level_set().executor().snapshot()->mask();
-    start.from = document::MaskStart{std::make_shared<const Mask>(std::move(mask)), "before"};
+    start.from = document::MaskStart{std::make_shared<const BitMask>(mask), "before"};
     start.erasers = {ball_at(*document->volume(), {3, 3, 3}, 1.0)};
     if (!document->level_set().begin(start)) qFatal("a start that should work");
     run(document->level_set(), 6);
@@ -138,7 +138,7 @@ class RecipeTest : public QObject {
     if (start == 0) wanted.erasers = {ball_at(volume, {0, 5, 0}, 2.0)};
     if (start == 1) wanted.from = document::ThresholdStart{910.5, 1200.0};
     if (start == 2) wanted.from = document::FloodStart{volume.geometry.size / std::int64_t{2}, 850.0, 2000.0};
-    if (start == 3) wanted.from = document::MaskStart{std::make_shared<const Mask>(mask), "mask.nii"};
+    if (start == 3) wanted.from = document::MaskStart{std::make_shared<const BitMask>(mask), "mask.nii"};
     if (start == 4) {
       const auto other = begun_case(solver::ExecutorKind::stream);  // with other pages
       run(other->level_set(), 5);

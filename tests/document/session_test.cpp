@@ -92,7 +92,7 @@ class SessionTest : public QObject {
     QVERIFY(after.recipe().events == before.recipe().events);
     QCOMPARE(after.smoothed_mm(), 0.7);
     QVERIFY((*restored)->labels().list() == document->labels().list());
-    QVERIFY((*restored)->labels().mask(1).voxels == document->labels().mask(1).voxels);
+    QVERIFY((*restored)->labels().region(1) == document->labels().region(1));
     QVERIFY(*after.curve().points() == *before.curve().points());
     QCOMPARE((*restored)->view_state, document->view_state);
     QVERIFY(!(*restored)->changed_since_save());
@@ -209,13 +209,14 @@ class SessionTest : public QObject {
     QVERIFY(!contents.truth);
     must(document::write_session(contents, folder / "none.tidemark"));
     QVERIFY(!document::load_session(folder / "none.tidemark").value().truth);
-    contents.truth = std::make_shared<const Mask>(document->labels().mask(1));
+    const document::Labels& labels = document->labels();
+    contents.truth = std::make_shared<const BitMask>(labels.geometry(), labels.region(1));
     QVERIFY(contents.truth->count() > 0);
     must(document::write_session(contents, folder / "one.tidemark"));
     const document::SessionContents again = document::load_session(folder / "one.tidemark").value();
     QVERIFY(again.truth);
-    QVERIFY(again.truth->voxels == contents.truth->voxels);
-    QCOMPARE(again.truth->geometry.size, document->volume()->geometry.size);
+    QVERIFY(Region(*again.truth) == labels.region(1));
+    QCOMPARE(again.truth->geometry().size, document->volume()->geometry.size);
     Entries entries = entries_of(folder / "one.tidemark");
     entries["truth"].resize(5);
     write_entries(folder / "cut.tidemark", entries);
@@ -502,7 +503,8 @@ class SessionTest : public QObject {
          "phi.table has"},
         {"resident pages", json([](Json& j) { j["phi"]["resident_pages"] = 1 << 30; }),
          "phi.resident_pages: "},
-        {"fewer pages", json([](Json& j) { j["phi"]["resident_pages"] = 1; }), "phi.pages has"},
+        {"fewer pages", json([](Json& j) { j["phi"]["resident_pages"] = 1; }),
+         "phi: the page table names page 1, which is not there"},
         {"table long", [](Entries& e) { e["phi.table"] += "1234"; }, "phi.table has"},
         {"table cut", [](Entries& e) { e["phi.table"].resize(8); }, "phi.table has 8 bytes"},
         {"table page", number("phi.table", 3, std::int32_t{999999}), "phi: the page table names page 999999"},

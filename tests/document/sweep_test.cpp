@@ -244,7 +244,7 @@ class SweepTest : public QObject {
     const auto before = alone(recipe, plain, volume, true);
     recipe.start = {};
     recipe.start.from =
-        document::limited({std::make_shared<const Mask>(before.start.mask()), "mask"}, 2.0).value();
+        document::limited({std::make_shared<const BitMask>(before.start.mask()), "mask"}, 2.0).value();
     const auto sweep = swept(recipe, volume, over({kAlphas}));
     for (const document::SweepRun& run : sweep.runs) {
       const auto single = alone(recipe, run, volume, true);

@@ -10,9 +10,9 @@ namespace tidemark::test::truth_test {
 class TruthTest : public QObject {
   Q_OBJECT
 
-  // The voxels of one of the segments.
-  [[nodiscard]] std::vector<std::uint8_t> voxels(std::size_t place) const {
-    return imaging::union_of({grid_, {segments_.list[place]}, {}}).voxels;
+  // One of the segments.
+  [[nodiscard]] Region region(std::size_t place) const {
+    return Region(imaging::union_of({grid_, {segments_.list[place]}, {}}));
   }
 
  private slots:
@@ -23,11 +23,11 @@ class TruthTest : public QObject {
     for (const auto& [number, place] : {std::pair(1, 1), std::pair(2, 0), std::pair(9, 2)}) {
       const auto truth = document::load_truth(file, number, grid_);
       QCOMPARE(failure(truth), QString());
-      QVERIFY(truth->voxels == voxels(static_cast<std::size_t>(place)));
+      QVERIFY(Region(*truth) == region(static_cast<std::size_t>(place)));
     }
     const auto all = document::load_truth(file, {}, grid_);
     QCOMPARE(failure(all), QString());
-    QVERIFY(all->voxels == imaging::union_of(segments_).voxels);
+    QVERIFY(Region(*all) == Region(imaging::union_of(segments_)));
     const auto none = document::load_truth(file, 3, grid_);
     QVERIFY(!none);
     QCOMPARE(none.error().kind, ErrorKind::usage);
@@ -39,7 +39,7 @@ class TruthTest : public QObject {
     QCOMPARE(failure(imaging::write_structure_set(segments_, {}, file)), QString());
     const auto truth = document::load_truth(file, 3, grid_);
     QCOMPARE(failure(truth), QString());
-    QVERIFY(truth->voxels == voxels(2));
+    QVERIFY(Region(*truth) == region(2));
     for (const int number : {0, 4}) QVERIFY(!document::load_truth(file, number, grid_));
   }
 

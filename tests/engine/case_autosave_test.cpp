@@ -131,9 +131,8 @@ class CaseAutosaveTest : public QObject {
     QCOMPARE(copies_after_another_save(), 2);
     add_image("second");
     QCOMPARE(copies_after_another_save(), 3);
-    auto truth = std::make_shared<Mask>();
-    truth->geometry = edited.proxy.volume().geometry;
-    truth->voxels.assign(static_cast<std::size_t>(truth->geometry.voxel_count()), 1);
+    auto truth = std::make_shared<BitMask>(edited.proxy.volume().geometry);
+    truth->add(0);
     edited.proxy.compare_with(truth);
     edited.wait_until_idle();
     QCOMPARE(copies_after_another_save(), 4);

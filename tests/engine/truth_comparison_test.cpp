@@ -3,6 +3,7 @@
 
 #include <QSignalSpy>
 
+#include "core/region.h"
 #include "solver/distance_transform.h"
 #include "tests/support/test_program.h"
 
@@ -12,14 +13,12 @@ class TruthComparisonTest : public QObject {
   Q_OBJECT
 
   // All voxels with x below so many.
-  static std::shared_ptr<const Mask> block(std::int64_t voxels) {
-    auto mask = std::make_shared<Mask>(Mask{{{24, 16, 16}, {0.5, 1.0, 1.0}, glm::dmat3(1.0), {}}, {}});
-    for (std::int64_t offset = 0; offset < mask->geometry.voxel_count(); ++offset)
-      mask->voxels.push_back(mask->geometry.voxel_at(offset).x < voxels ? 1 : 0);
-    return mask;
+  static std::shared_ptr<const BitMask> block(std::int64_t voxels) {
+    const Geometry grid{{24, 16, 16}, {0.5, 1.0, 1.0}, glm::dmat3(1.0), {}};
+    return std::make_shared<const BitMask>(grid, whole({Index3(0), {voxels, 16, 16}}));
   }
-  static std::shared_ptr<const solver::Field> surface_of(const Mask& mask) {
-    return std::make_shared<const solver::Field>(solver::distance_transform(mask, 2.5));
+  static std::shared_ptr<const solver::Field> surface_of(const BitMask& mask) {
+    return std::make_shared<const solver::Field>(solver::distance_transform(inside_of(mask), 2.5));
   }
 
  private slots:

@@ -10,15 +10,13 @@ class TruthOverlapTest : public QObject {
   Q_OBJECT
 
   // A ball of so many mm that is off the middle by so many mm along x.
-  static std::shared_ptr<const Mask> ball(const Geometry& geometry, double off_mm, double radius_mm) {
-    auto mask = std::make_shared<Mask>(Mask{geometry, {}});
+  static std::shared_ptr<const BitMask> ball(const Geometry& geometry, double off_mm, double radius_mm) {
+    auto mask = std::make_shared<BitMask>(geometry);
     const glm::dvec3 centre =
         geometry.to_patient(0.5 * glm::dvec3(geometry.size - Index3(1))) + glm::dvec3(off_mm, 0.0, 0.0);
-    for (std::int64_t z = 0; z < geometry.size.z; ++z) {
-      for (std::int64_t y = 0; y < geometry.size.y; ++y) {
-        for (std::int64_t x = 0; x < geometry.size.x; ++x)
-          mask->voxels.push_back(glm::distance(geometry.to_patient({x, y, z}), centre) < radius_mm ? 1 : 0);
-      }
+    for (std::int64_t offset = 0; offset < geometry.voxel_count(); ++offset) {
+      const glm::dvec3 middle = geometry.to_patient(glm::dvec3(geometry.voxel_at(offset)));
+      if (glm::distance(middle, centre) < radius_mm) mask->add(offset);
     }
     return mask;
   }
@@ -40,7 +38,8 @@ class TruthOverlapTest : public QObject {
     const Geometry geometry{{43, 37, 45}, {1.0, 1.0, 1.0}, glm::dmat3(1.0), {3.0, -2.0, 7.0}};
     const auto inside = ball(geometry, 0.0, 15.0);
     std::vector<float> values;
-    for (const std::uint8_t voxel : inside->voxels) values.push_back(voxel != 0 ? 2.5F : -2.5F);
+    for (std::int64_t offset = 0; offset < geometry.voxel_count(); ++offset)
+      values.push_back(inside->contains(offset) ? 2.5F : -2.5F);
     const solver::Field phi = solver::Field::from_dense(geometry, values, 2.5);
     std::int64_t constant = 0;  // pages inside throughout
     for (std::int64_t page = 0; page < phi.pages.size(); ++page)
@@ -48,7 +47,7 @@ class TruthOverlapTest : public QObject {
     QVERIFY(constant > 0);
     const auto truth = ball(geometry, off_mm, radius_mm);
     engine::TruthOverlap overlap(truth);
-    const double expected = dice(phi.mask(), *truth);
+    const double expected = dice(Region(phi.mask()), Region(*truth));
     QCOMPARE(overlap.dice(phi), expected);
     QCOMPARE(overlap.dice(phi), expected);  // with what it knows by now
     QVERIFY(expected < 1.0 && expected > 0.0);

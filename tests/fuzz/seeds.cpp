@@ -364,7 +364,7 @@ void write_studies() {
   auto contents = document::snapshot_of(*document).value();
   write("recipe", "recipe.json", contents.recipe.to_text().value());
   contents.origin.phantom = "tumour";
-  contents.truth = std::make_shared<const Mask>(contents.phi->mask());
+  contents.truth = std::make_shared<const BitMask>(contents.phi->mask());
   const test::TemporaryFolder folder;
   if (const auto saved = document::write_session(contents, folder / "case"); !saved) {
     qFatal("%s", saved.error().message.c_str());

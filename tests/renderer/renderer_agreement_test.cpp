@@ -50,7 +50,7 @@ struct Laden {
       return glm::length(p - scene.middle - glm::dvec3(3, 0, 0)) < 16.0 ? 1.0 : 0.0;
     });
     began.voxels.assign(inside.begin(), inside.end());
-    change = solver::MotionLimit(std::make_shared<const Mask>(std::move(began)), 6.0).change();
+    change = solver::MotionLimit(std::make_shared<const BitMask>(began), 6.0).change();
     renderer::ImagesOver over{37, 23, {}};
     for (int i = 0; i < 37 * 23; ++i) {
       const auto opacity = static_cast<std::uint8_t>(i % 37 * 5);

@@ -171,7 +171,7 @@ class SpeedPictureTest : public QObject {
         QCOMPARE(coloured(draw(slice, 140, 122), true) + coloured(draw(slice, 140, 122), false),
                  std::int64_t{0});
         draw.renderer().set_change(
-            solver::MotionLimit(std::make_shared<const Mask>(ball_mask(geometry, began)), 4.0).change());
+            solver::MotionLimit(std::make_shared<const BitMask>(ball_mask(geometry, began)), 4.0).change());
         const bool won = began < 14.0;
         const renderer::Picture in_slice = draw(slice, 140, 122);
         // A ring of 3 mm, 2 pixels a mm.

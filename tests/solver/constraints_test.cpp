@@ -45,8 +45,8 @@ std::pair<float, float> range_of(const Field& phi, const Mask& where) {
 std::shared_ptr<const Constraints> constraints_of(const Geometry& geometry, const Mask& walls,
                                                   const Mask& anchors = {}) {
   auto constraints = std::make_shared<Constraints>(geometry.size);
-  if (!walls.voxels.empty()) constraints->set(walls, Constraint::wall);
-  if (!anchors.voxels.empty()) constraints->set(anchors, Constraint::anchor);
+  if (!walls.voxels.empty()) constraints->set(BitMask(walls), Constraint::wall);
+  if (!anchors.voxels.empty()) constraints->set(BitMask(anchors), Constraint::anchor);
   return constraints;
 }
 
@@ -210,7 +210,7 @@ class ConstraintsTest : public QObject {
     const Mask mask = mask_where(geometry, [&](glm::dvec3 p) { return p.x < face_mm; });
     for (const bool grows : {true, false}) {
       for (const double within_mm : {0.5, 2.0, 2.3, 3.15, 5.0}) {
-        const MotionLimit limit(std::make_shared<const Mask>(mask), within_mm);
+        const MotionLimit limit(std::make_shared<const BitMask>(mask), within_mm);
         const auto level_set = this_row().make(uniform_source(geometry, grows), data_alone());
         QCOMPARE(failure(level_set->set_constraints(limit.constraints())), QString());
         const Field start = distance_transform(mask, level_set->band(), level_set->memory().page_shape);

@@ -184,7 +184,7 @@ class ExecutorsPagingTest : public QObject {
     const auto box = solver::Field::from_dense(
         geometry, sample(geometry, [&](glm::dvec3 p) { return in_box(p) ? 0.5 : -100.0; }), 2.5);
     auto anchors = std::make_shared<solver::Constraints>(geometry.size);
-    anchors->set(box.mask(), solver::Constraint::anchor);
+    anchors->set(BitMask(box.mask()), solver::Constraint::anchor);
     auto walls = std::make_shared<solver::Constraints>(geometry.size);
     walls->set(geometry, {centre_of(geometry), 2.0}, solver::Constraint::wall);
     struct Edit {

@@ -78,7 +78,7 @@ Result<Contents> result_of(document::Recipe recipe, const engine::LoadedStudy& s
   if (!row.truth.empty()) {
     auto truth = document::load_truth(row.truth, row.truth_label, study.volume->geometry, progress);
     if (!truth) return pass_on(truth);
-    contents->truth = std::make_shared<const Mask>(std::move(*truth));
+    contents->truth = std::make_shared<const BitMask>(std::move(*truth));
   }
   return std::make_shared<const document::SessionContents>(std::move(*contents));
 }

@@ -105,8 +105,8 @@ void TruthReader::compare(const Subject& subject, const std::shared_ptr<const im
   const QString name =
       region ? tr("%1 of %2").arg(QString::fromStdString(segments->list[*region].name), file) : file;
   compare(*subject.of, name, [segments, region] {
-    return imaging::union_of(region ? imaging::Segments{segments->geometry, {segments->list[*region]}, {}}
-                                    : *segments);
+    return BitMask(imaging::union_of(
+        region ? imaging::Segments{segments->geometry, {segments->list[*region]}, {}} : *segments));
   });
 }
 
@@ -116,18 +116,18 @@ void TruthReader::compare_with_label(CaseWindow& window) {
   if (!label) return;
   compare(window, QString::fromStdString(label->name),
           [grid = proxy.volume().geometry, voxels = proxy.state().label_voxels, id = label->id] {
-            return mask_of(voxels ? Region(*voxels, id) : Region(), grid);
+            return BitMask(grid, voxels ? Region(*voxels, id) : Region());
           });
 }
 
-void TruthReader::compare(CaseWindow& of, const QString& name, std::function<Mask()> make) {
+void TruthReader::compare(CaseWindow& of, const QString& name, std::function<BitMask()> make) {
   auto& job_of_case = jobs_of_[&of];
   if (job_of_case) job_of_case->abandon();
   const QPointer alive(&of);
   job_of_case = engine::BackgroundJob::start(
       this,
       [this, name, alive, make = std::move(make)](engine::BackgroundJob& job) {
-        auto truth = std::make_shared<const Mask>(make());
+        auto truth = std::make_shared<const BitMask>(make());
         if (truth->count() == 0) truth = nullptr;
         job.deliver([this, truth, name, alive] {
           if (alive) take(*alive, truth, name);
@@ -138,7 +138,7 @@ void TruthReader::compare(CaseWindow& of, const QString& name, std::function<Mas
       });
 }
 
-void TruthReader::take(CaseWindow& of, const std::shared_ptr<const Mask>& truth, const QString& name) {
+void TruthReader::take(CaseWindow& of, const std::shared_ptr<const BitMask>& truth, const QString& name) {
   if (!truth) {
     return window_.tell(of, tr("%1 has no voxel inside: there is nothing to compare with.").arg(name),
                         kAboutTruth);

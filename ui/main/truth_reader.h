@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/bit_mask.h"
 #include "engine/result_jobs.h"
 #include "ui/main/case_window.h"
 
@@ -43,8 +44,8 @@ class TruthReader : public QObject {
   // With all of it, or with one region.
   void compare(const Subject& subject, const std::shared_ptr<const imaging::Segments>& segments,
                std::optional<std::size_t> region);
-  void compare(CaseWindow& of, const QString& name, std::function<Mask()> make);
-  void take(CaseWindow& of, const std::shared_ptr<const Mask>& truth, const QString& name);
+  void compare(CaseWindow& of, const QString& name, std::function<BitMask()> make);
+  void take(CaseWindow& of, const std::shared_ptr<const BitMask>& truth, const QString& name);
   void end(const QString& problem = {});
 
   MainWindow& window_;

@@ -14,7 +14,7 @@ Result<LoadedStart> load_start(const StartRequest& request, const Progress& prog
   if (kind == StartFile::mask) {
     auto loaded = imaging::load_any_mask(path, &grid, progress);
     if (!loaded) return pass_on(loaded);
-    document::MaskStart mask{std::make_shared<const Mask>(std::move(loaded->mask)), name};
+    document::MaskStart mask{std::make_shared<const BitMask>(loaded->mask), name};
     if (within_mm) {
       auto refined = limited(std::move(mask), *within_mm);
       if (!refined) return pass_on(refined);

@@ -82,12 +82,12 @@ QList<QLineF> outline_of_voxels(const Geometry& geometry, const SliceLattice& la
 
 }  // namespace
 
-QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientation& orientation,
+QList<QLineF> outline_in_slice(const BitMask& mask, const renderer::SliceOrientation& orientation,
                                glm::dvec3 position_mm) {
-  const Geometry& geometry = mask.geometry;
+  const Geometry& geometry = mask.geometry();
   const SliceLattice lattice = lattice_in(geometry, {Index3(0), geometry.size}, orientation, position_mm);
   return outline_of_voxels(geometry, lattice, [&](Index3 voxel) {
-    return geometry.contains(voxel) && mask.voxels[static_cast<std::size_t>(geometry.offset(voxel))] != 0;
+    return geometry.contains(voxel) && mask.contains(geometry.offset(voxel));
   });
 }
 

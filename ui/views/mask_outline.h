@@ -4,7 +4,7 @@
 #include <QLineF>
 #include <QList>
 
-#include "core/volume.h"
+#include "core/bit_mask.h"
 #include "engine/label_preview.h"
 #include "renderer/camera.h"
 #include "solver/field.h"
@@ -13,7 +13,7 @@ namespace tidemark::ui {
 
 // Lines between the middles of neighbouring voxels that differ, in mm along the slice's right (x) and up (y)
 // from the patient's origin. `position_mm`: a point of the slice (LPS).
-QList<QLineF> outline_in_slice(const Mask& mask, const renderer::SliceOrientation& orientation,
+QList<QLineF> outline_in_slice(const BitMask& mask, const renderer::SliceOrientation& orientation,
                                glm::dvec3 position_mm);
 
 // Of each region that labels would become.

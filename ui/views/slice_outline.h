@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "core/bit_mask.h"
 #include "ui/views/mask_outline.h"
 #include "ui/views/overlay.h"
 
@@ -16,7 +17,7 @@ namespace tidemark::ui {
 void paint_outline(QPainter& painter, const QList<QLineF>& lines, const SliceScreen& screen,
                    const QColor& colour);
 
-// Of a Mask or a solver::Field; found anew when it, or the slice, is another one.
+// Of a BitMask or a solver::Field; found anew when it, or the slice, is another one.
 template <class Shape>
 class SliceOutline {
  public:

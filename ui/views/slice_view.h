@@ -1,6 +1,7 @@
 // Views in 2D: slices, speed maps and pages.
 #pragma once
 
+#include "core/bit_mask.h"
 #include "ui/views/image_overlay.h"
 #include "ui/views/marks_overlay.h"
 #include "ui/views/picture_view.h"
@@ -72,7 +73,7 @@ class SliceViewWidget : public PictureView {
 
   const SlicePlane plane_;
   renderer::SliceContent content_;
-  SliceOutline<Mask> truth_outline_;
+  SliceOutline<BitMask> truth_outline_;
   SliceOutline<solver::Field> compared_outline_;
   SliceOutline<engine::LabelPreview> preview_outline_;  // of a tool for labels
   SliceOutline<engine::LabelPreview> stroke_outline_;   // of their brush

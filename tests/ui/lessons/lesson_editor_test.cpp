@@ -360,7 +360,7 @@ class LessonEditorTest : public QObject {
 
     // A mask is of one grid, and no lesson file has one.
     document::Start painted;
-    painted.from = document::MaskStart{std::make_shared<const Mask>(proxy->state().phi->mask()), "mine"};
+    painted.from = document::MaskStart{std::make_shared<const BitMask>(proxy->state().phi->mask()), "mine"};
     proxy->begin(painted);
     QVERIFY(idle());
     click(*editor, "&Take from the case");

@@ -5,6 +5,7 @@
 #include <QFileDialog>
 #include <QLabel>
 
+#include "core/region.h"
 #include "imaging/files/volume_file.h"
 #include "imaging/results/results.h"
 #include "imaging/results/segments.h"
@@ -141,7 +142,7 @@ void TruthStoryTest::one_of_several_regions_is_chosen() {
   regions->setCurrentIndex(2);
   question->accept();
   QVERIFY(Desktop::wait_for([&] { return dice_now() > 0.9; }, kPatience));
-  QVERIFY(desktop_->proxy().truth()->voxels == ball(grid(), kLeft, kRadius).voxels);
+  QVERIFY(Region(*desktop_->proxy().truth()) == Region(ball(grid(), kLeft, kRadius)));
 }
 
 void TruthStoryTest::a_label_is_compared_with_as_it_is_now() {
@@ -156,11 +157,11 @@ void TruthStoryTest::a_label_is_compared_with_as_it_is_now() {
   QVERIFY(Desktop::wait_for([&] { return desktop_->state().dice.has_value(); }, kPatience));
   QVERIFY(dice_now() < 1.0);
   QCOMPARE(dice_now(), dice(desktop_->state().phi->mask(), label));
-  QVERIFY(desktop_->proxy().truth()->voxels == label.voxels);
+  QVERIFY(Region(*desktop_->proxy().truth()) == Region(label));
   // What becomes of the label later is another answer, for whoever asks again.
   desktop_->proxy().accept_surface(desktop_->state().labels.front().id);
   desktop_->wait_until_idle();
-  QVERIFY(desktop_->proxy().truth()->voxels == label.voxels);
+  QVERIFY(Region(*desktop_->proxy().truth()) == Region(label));
   desktop_->choose("File", desktop_->menu_entry("File", "Stop comparing"));
   desktop_->wait_until_idle();
   QVERIFY(!desktop_->state().dice);
@@ -180,8 +181,8 @@ void TruthStoryTest::a_mask_is_of_the_case_for_which_it_was_read() {
   reader->read(*window_, path("expert.nii.gz"));
   reader->compare_with_label(*other);
   QVERIFY(Desktop::wait_for([&] { return first.truth() && other->proxy().truth(); }, kPatience));
-  QVERIFY(first.truth()->voxels == truth.voxels);
-  QVERIFY(other->proxy().truth()->voxels == label.voxels);
+  QVERIFY(Region(*first.truth()) == Region(truth));
+  QVERIFY(Region(*other->proxy().truth()) == Region(label));
   QCOMPARE(desktop_->window().active_case(), other);
   desktop_->wait_until_idle();
   QCOMPARE(dice_now(), 1.0);
@@ -237,7 +238,7 @@ void TruthStoryTest::a_session_keeps_it_until_it_is_taken_back() {
   std::filesystem::remove(folder_ / "expert.nii.gz");
   open_again("compared.tidemark");
   QVERIFY(desktop_->proxy().truth());
-  QVERIFY(desktop_->proxy().truth()->voxels == truth.voxels);
+  QVERIFY(Region(*desktop_->proxy().truth()) == Region(truth));
   QVERIFY(Desktop::wait_for([&] { return dice_now() == expected; }, kPatience));
   desktop_->screenshot("truth-from-a-session");
 

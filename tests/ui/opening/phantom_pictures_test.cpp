@@ -30,7 +30,7 @@ QImage picture_of(const imaging::Phantom& phantom) {
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(QColor(255, 217, 0), 1.6));
   const glm::dvec3 on_slice = geometry.to_patient({0.0, 0.0, static_cast<double>(k)});
-  for (const QLineF& line : ui::outline_in_slice(phantom.truth, renderer::kAxial, on_slice)) {
+  for (const QLineF& line : ui::outline_in_slice(BitMask(phantom.truth), renderer::kAxial, on_slice)) {
     // The patient's left is at the right, the back below.
     const auto place = [&](QPointF mm) {
       return QPointF((mm.x() - first.x) * scale, (-mm.y() - first.y) * scale);

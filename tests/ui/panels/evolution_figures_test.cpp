@@ -17,13 +17,12 @@ class EvolutionFiguresTest : public QObject {
  private slots:
   void distances_to_the_truth_go_with_the_surface() {
     PanelCase the_case;
-    auto truth = std::make_shared<Mask>();
-    truth->geometry = the_case.proxy->volume().geometry;
-    truth->voxels.resize(static_cast<std::size_t>(truth->geometry.voxel_count()));
-    for (std::int64_t n = 0; n < truth->geometry.voxel_count(); ++n) {
-      const Index3 away = truth->geometry.voxel_at(n) - truth->geometry.size / std::int64_t{2};
+    const Geometry& grid = the_case.proxy->volume().geometry;
+    auto truth = std::make_shared<BitMask>(grid);
+    for (std::int64_t n = 0; n < grid.voxel_count(); ++n) {
+      const Index3 away = grid.voxel_at(n) - grid.size / std::int64_t{2};
       const bool is_inside = away.x * away.x + away.y * away.y + 4 * away.z * away.z < 100;
-      truth->voxels[static_cast<std::size_t>(n)] = is_inside ? 1 : 0;
+      if (is_inside) truth->add(n);
     }
     the_case.proxy->compare_with(truth);
     the_case.begin(6.0);

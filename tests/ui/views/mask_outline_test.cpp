@@ -21,13 +21,11 @@ glm::dvec3 middle() {
   return kGrid.to_patient(0.5 * glm::dvec3(kGrid.size - Index3(1)));
 }
 
-Mask ball() {
-  Mask mask{kGrid, {}};
-  for (std::int64_t z = 0; z < kGrid.size.z; ++z) {
-    for (std::int64_t y = 0; y < kGrid.size.y; ++y) {
-      for (std::int64_t x = 0; x < kGrid.size.x; ++x)
-        mask.voxels.push_back(glm::distance(kGrid.to_patient({x, y, z}), middle()) < kRadius ? 1 : 0);
-    }
+BitMask ball() {
+  BitMask mask(kGrid);
+  for (std::int64_t offset = 0; offset < kGrid.voxel_count(); ++offset) {
+    const glm::dvec3 voxel(kGrid.voxel_at(offset));
+    if (glm::distance(kGrid.to_patient(voxel), middle()) < kRadius) mask.add(offset);
   }
   return mask;
 }
@@ -96,8 +94,8 @@ class MaskOutlineTest : public QObject {
 
   // No end is loose, at the volume's border either.
   void it_is_closed() {
-    Mask all{kGrid, std::vector<std::uint8_t>(static_cast<std::size_t>(kGrid.voxel_count()), 1)};
-    for (const Mask& mask : {ball(), all}) {
+    const BitMask all(kGrid, whole({Index3(0), kGrid.size}));
+    for (const BitMask& mask : {ball(), all}) {
       std::map<std::pair<long, long>, int> ends;
       for (const QLineF& line : ui::outline_in_slice(mask, renderer::kAxial, middle())) {
         for (const QPointF& end : {line.p1(), line.p2()})

@@ -17,7 +17,7 @@ class SurfaceMapTest : public QObject {
     test::PanelCase the_case;
     the_case.begin(8.0);
     engine::CaseProxy& proxy = *the_case.proxy;
-    proxy.compare_with(std::make_shared<const Mask>(the_case.state().phi->mask()));
+    proxy.compare_with(std::make_shared<const BitMask>(the_case.state().phi->mask()));
     the_case.begin(6.0);
     const ui::SliceViewWidget slice(proxy, ui::SlicePlane::axial, renderer::SliceContent::source);
     const ui::VolumeViewWidget volume(proxy);
