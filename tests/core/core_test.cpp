@@ -360,7 +360,9 @@ class CoreTest : public QObject {
     QVERIFY(*held);
     const pid_t process = ::fork();
     QVERIFY(process >= 0);
-    while (process == 0) ::pause();
+    if (process == 0) {
+      for (;;) ::pause();  // until it is killed
+    }
     held.reset();
     const bool is_free(FileLock::take(file));
     ::kill(process, SIGKILL);
