@@ -90,7 +90,7 @@ class LabelDragTest : public QObject {
   }
   static ui::DragView view_of(PanelCase& of, double brush_mm, std::optional<engine::SliceSlab> slab) {
     of.proxy->display().change([&](engine::DisplaySettings& settings) { settings.brush_mm = brush_mm; });
-    return {*of.proxy, QSizeF(100.0, 100.0), 1.0, [](glm::dvec3) { return QPointF(); }, std::move(slab)};
+    return {*of.proxy, QSizeF(100.0, 100.0), 1.0, [](glm::dvec3) { return QPointF(); }, slab};
   }
   // From the middle to the border and along it, and back across the way.
   static std::vector<glm::dvec3> moves_in(const Geometry& grid) {
