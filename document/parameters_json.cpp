@@ -36,7 +36,7 @@ Json to_json(const solver::Parameters& parameters) {
 
 namespace {
 
-solver::Parameters read_parameters(const JsonField& field, const solver::Parameters& base, bool all) {
+solver::Parameters read_onto(const solver::Parameters& base, const JsonField& field, bool all) {
   solver::Parameters parameters = base;
   const auto given = [&](const char* key) { return all || field.has(key); };
   const auto number = [&](const char* key, double& value) {
@@ -86,13 +86,13 @@ solver::Parameters read_parameters(const JsonField& field, const solver::Paramet
 }  // namespace
 
 solver::Parameters read_parameters(const JsonField& field) {
-  return read_parameters(field, {}, true);
+  return read_onto({}, field, true);
 }
 
 solver::Parameters read_changed_parameters(const JsonField& field, const solver::Parameters& base) {
   field.only({"target", "range", "alpha", "band", "rescale", "target_gradient", "scheme", "data", "data_term",
               "curvature_term", "rescaling_term", "time_step_factor"});
-  return read_parameters(field, base, false);
+  return read_onto(base, field, false);
 }
 
 Json changed_parameters(const solver::Parameters& parameters, const solver::Parameters& base) {

@@ -10,7 +10,7 @@
 namespace tidemark::imaging {
 namespace {
 
-std::optional<std::vector<double>> decimals(DcmItem& item, const DcmTagKey& key, std::size_t count) {
+std::optional<std::vector<double>> decimals_of(DcmItem& item, const DcmTagKey& key, std::size_t count) {
   auto values = parse_decimals(element_text(item, key));
   return values && values->size() == count ? values : std::nullopt;
 }
@@ -22,13 +22,13 @@ void read_groups(DcmItem& item, FrameGroups& groups) {
     if (item.findAndGetSequenceItem(sequence, group).good() && group != nullptr) read(*group);
   };
   with(DCM_PlanePositionSequence,
-       [&](DcmItem& group) { groups.position_mm = decimals(group, DCM_ImagePositionPatient, 3); });
+       [&](DcmItem& group) { groups.position_mm = decimals_of(group, DCM_ImagePositionPatient, 3); });
   with(DCM_PlaneOrientationSequence,
-       [&](DcmItem& group) { groups.orientation = decimals(group, DCM_ImageOrientationPatient, 6); });
+       [&](DcmItem& group) { groups.orientation = decimals_of(group, DCM_ImageOrientationPatient, 6); });
   with(DCM_PixelMeasuresSequence, [&](DcmItem& group) {
-    groups.spacing_mm = decimals(group, DCM_PixelSpacing, 2);
-    const auto between = decimals(group, DCM_SpacingBetweenSlices, 1);
-    const auto thickness = decimals(group, DCM_SliceThickness, 1);
+    groups.spacing_mm = decimals_of(group, DCM_PixelSpacing, 2);
+    const auto between = decimals_of(group, DCM_SpacingBetweenSlices, 1);
+    const auto thickness = decimals_of(group, DCM_SliceThickness, 1);
     groups.between_mm = between ? std::optional(between->front()) : std::nullopt;
     groups.thickness_mm = thickness ? std::optional(thickness->front()) : std::nullopt;
   });

@@ -33,7 +33,7 @@ QPixmap drawn_mark(int number, int side) {
 }
 
 // "Name · ID · series", without unknown and hidden parts.
-QString text_of(engine::CaseProxy& proxy) {
+QString head_text(engine::CaseProxy& proxy) {
   QStringList parts;
   if (proxy.display().settings().patient_text) {
     const imaging::Patient& patient = proxy.study().patient;
@@ -110,7 +110,7 @@ void CaseHead::refresh() {
 
 // With each move of the mouse: it is cheap where nothing has changed.
 void CaseHead::refresh_text() {
-  const QString text = text_of(window_->proxy());
+  const QString text = head_text(window_->proxy());
   if (text != text_->text()) text_->setText(text);
 }
 

@@ -22,14 +22,14 @@ constexpr double kLeastNarrowing = 1.5;
 constexpr double kMostNarrowing = 10.0;
 constexpr std::int64_t kStepsPerPicture[] = {0, 1, 2, 5, 10, 50, 100};
 
-struct Choice {
+struct ExecutorChoice {
   solver::ExecutorKind kind;
   const char* name;  // Executor::name()
 };
-constexpr Choice kChoices[] = {{solver::ExecutorKind::automatic, "automatic"},
-                               {solver::ExecutorKind::host, "host"},
-                               {solver::ExecutorKind::compute, "compute"},
-                               {solver::ExecutorKind::stream, "stream"}};
+constexpr ExecutorChoice kChoices[] = {{solver::ExecutorKind::automatic, "automatic"},
+                                       {solver::ExecutorKind::host, "host"},
+                                       {solver::ExecutorKind::compute, "compute"},
+                                       {solver::ExecutorKind::stream, "stream"}};
 
 // Why this machine cannot run it; empty when it can.
 QString obstacle(solver::ExecutorKind kind, const engine::Engine& engine) {
@@ -46,7 +46,7 @@ QString obstacle(solver::ExecutorKind kind, const engine::Engine& engine) {
   return {};
 }
 
-QString text_of(document::Outcome outcome) {
+QString outcome_word(document::Outcome outcome) {
   switch (outcome) {
     case document::Outcome::converged:
       return EvolutionControls::tr("converged");
@@ -168,7 +168,7 @@ void EvolutionControls::set_leak_rule() {
 void EvolutionControls::fill_executors() {
   executor_->clear();
   auto* items = qobject_cast<QStandardItemModel*>(executor_->model());
-  for (const Choice& choice : kChoices) {
+  for (const ExecutorChoice& choice : kChoices) {
     executor_->addItem(title(choice.kind), QLatin1String(choice.name));
     const QString why = obstacle(choice.kind, proxy()->engine());
     if (why.isEmpty()) continue;
@@ -189,7 +189,7 @@ void EvolutionControls::refresh() {
   const engine::CaseState& state = proxy()->state();
   state_->setText(!state.begun    ? tr("no surface yet")
                   : state.playing ? tr("playing")
-                                  : text_of(state.outcome));
+                                  : outcome_word(state.outcome));
   steps_->setCurrentIndex(
       std::max(0, steps_->findData(QVariant::fromValue<qint64>(proxy()->steps_per_picture()))));
   pause_->setChecked(proxy()->pause_at_convergence());

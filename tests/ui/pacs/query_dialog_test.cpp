@@ -1,7 +1,9 @@
 // A user asks an archive for a study, unfolds it, and opens a series; or gives up.
 #include "ui/pacs/query_dialog.h"
 
+#include <QComboBox>
 #include <QFile>
+#include <QLabel>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTreeWidget>
