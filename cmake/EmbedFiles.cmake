@@ -19,6 +19,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
       DEPENDS ${files} ${script}
       COMMENT "Embedding ${arg_FOLDER}"
       VERBATIM)
+    tidemark_wait_for_nothing(${CMAKE_CURRENT_BINARY_DIR}/${output})
   endfunction()
   return()
 endif()
