@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "document/case.h"
+#include "tests/support/executor_rows.h"
 #include "tests/support/support.h"
 
 namespace tidemark::test {
@@ -122,19 +123,6 @@ inline std::string undo_text(document::Case& document) {
 inline solver::Parameters with_target(solver::Parameters parameters, double target) {
   parameters.target = target;
   return parameters;
-}
-
-// The executors, one a row. On OpenGL each test makes its own context.
-inline void add_executors() {
-  QTest::addColumn<int>("kind");
-  QTest::newRow("host") << int(solver::ExecutorKind::host);
-  QTest::newRow("compute") << int(solver::ExecutorKind::compute);
-  QTest::newRow("stream") << int(solver::ExecutorKind::stream);
-}
-
-inline solver::ExecutorKind this_executor() {
-  QFETCH(int, kind);
-  return static_cast<solver::ExecutorKind>(kind);
 }
 
 }  // namespace tidemark::test

@@ -5,6 +5,7 @@
 
 #include "engine/case_proxy.h"
 #include "tests/engine/ball_study.h"
+#include "tests/support/executor_rows.h"
 
 namespace tidemark::test {
 
