@@ -121,7 +121,8 @@ add_custom_target(quick_tests)
 # Test classes of a program, each in a file of its own and known to ctest by the file's name. They are named in the
 # folder that makes the program: the output of Qt's moc is known there alone.
 #   tidemark_tests(program [LABELS label...] TESTS [folder/]name...)
-# Tests of programs with windows have the label "windows" as well.
+# Tests of programs with windows have the label "windows" as well. Tests with the label "waits" wait for other programs
+# most of their time.
 function(tidemark_tests program)
   cmake_parse_arguments(arg "" "" "LABELS;TESTS" ${ARGN})
   foreach(test ${arg_TESTS})
@@ -151,6 +152,10 @@ function(tidemark_ctest name program)
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77
                        ENVIRONMENT "${environment}")
+  if(waits IN_LIST arg_LABELS)
+    # One at a time, from the beginning: several at once would leave the processors idle.
+    set_tests_properties(${name} PROPERTIES RESOURCE_LOCK waits COST 40)
+  endif()
   get_target_property(programs ${program} TIDEMARK_RUNS)
   if(programs)
     # tests/run_changed.py looks at them, too.
