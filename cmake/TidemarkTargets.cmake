@@ -122,7 +122,7 @@ add_custom_target(quick_tests)
 # folder that makes the program: the output of Qt's moc is known there alone.
 #   tidemark_tests(program [LABELS label...] TESTS [folder/]name...)
 # Tests of programs with windows have the label "windows" as well. Tests with the label "waits" wait for other programs
-# most of their time.
+# or the disk most of their time.
 function(tidemark_tests program)
   cmake_parse_arguments(arg "" "" "LABELS;TESTS" ${ARGN})
   foreach(test ${arg_TESTS})
