@@ -20,11 +20,11 @@ if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then tidemark_packages
 tidemark_test_packages=(
   xvfb xauth locales python3-pydicom python3-numpy dicom3tools dcm2niix plastimatch orthanc orthanc-dicomweb dcmtk openssl
   dpkg-dev debhelper fakeroot file clang libclang-rt-dev lld glslang-tools python3-sphinx python3-myst-parser
-  fonts-droid-fallback slurmctld slurmd slurm-client munge snakemake
+  fonts-droid-fallback slurmctld slurmd slurm-client munge
 )
 
 # Only ./test --long needs these.
-tidemark_long_test_packages=(clang-format clang-tidy python3-skimage nodejs)
+tidemark_long_test_packages=(clang-format clang-tidy python3-skimage nodejs snakemake)
 
 # Only making packages (packaging/release.sh) and ./test --long need these: what is in the bundle beside libraries, what
 # makes archives, packages and images, and systems in folders to try them in.

@@ -26,7 +26,7 @@ constexpr Limits kSame{1.0, 3};
 constexpr Limits kOtherRounds{1.0, 8};
 // While something moves the processor lights the source by differences within a voxel.
 constexpr Limits kOtherGradient{3.0, 30};
-constexpr double kFineStep = 0.1;
+constexpr double kFineStep = 0.2;
 
 // What lies over slices, all of it at once.
 struct Laden {

@@ -55,13 +55,13 @@ class PhantomExecutorsTest : public QObject {
       QCOMPARE(failure(problem->begin(**level_set)), QString());
       // It grows into the layers, an edit is in some of them, and it goes on.
       const glm::dvec3 middle = problem->source->geometry.to_patient(problem->middle());
-      QCOMPARE(failure((*level_set)->advance({.steps = 60})), QString());
+      QCOMPARE(failure((*level_set)->advance({.steps = 20})), QString());
       QCOMPARE(failure((*level_set)->paint({middle, 48.0}, solver::Brush::add)), QString());
-      QCOMPARE(failure((*level_set)->advance({.steps = 30})), QString());
+      QCOMPARE(failure((*level_set)->advance({.steps = 15})), QString());
       QCOMPARE(
           failure((*level_set)->paint({middle + glm::dvec3(35.0, 0.0, 0.0), 12.0}, solver::Brush::erase)),
           QString());
-      QCOMPARE(failure((*level_set)->advance({.steps = 30})), QString());
+      QCOMPARE(failure((*level_set)->advance({.steps = 15})), QString());
       QCOMPARE(failure((*level_set)->validate()), QString());
       solver::PackedView view;
       QVERIFY((*level_set)->packed_view(view));

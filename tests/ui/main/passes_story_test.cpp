@@ -134,7 +134,7 @@ void PassesStoryTest::it_follows_while_it_plays_and_changes_nothing() {
   const auto stream = solver::ExecutorKind::stream;
   const Variable renderer("TIDEMARK_RENDERER", renderer_beside(stream));
   Desktop desktop(stream, {1366, 768});
-  QVERIFY(desktop.open_phantom("tumour"));
+  QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(7.0);
   ui::PassesPanel* panel = open_passes(desktop);
   QVERIFY(panel);
@@ -205,7 +205,7 @@ void PassesStoryTest::a_window_of_its_own_has_room_for_all() {
   const auto stream = solver::ExecutorKind::stream;
   const Variable renderer("TIDEMARK_RENDERER", renderer_beside(stream));
   Desktop desktop(stream, {1366, 768});
-  QVERIFY(desktop.open_phantom("tumour"));
+  QVERIFY(desktop.open_phantom("sphere"));
   desktop.begin(9.0);
   ui::PassesPanel* panel = open_passes(desktop);
   QVERIFY(panel);

@@ -140,7 +140,7 @@ void PictureSurfaceTest::views_survive_being_undocked_docked_and_put_into_tabs()
   QVERIFY(axial && volume);
   QDockWidget* dock = window.dock_of(axial);
   QDockWidget* other = window.dock_of(volume);
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 4; ++i) {
     dock->setFloating(true);
     desktop.wait_until_idle();
     dock->setFloating(false);
