@@ -45,11 +45,17 @@ using Along = std::array<const Reach*, 3>;  // of a page, by axis
 // phi of a coarse grid at the voxels of the pages of the fine grid. Each thread has one.
 class PageRefiner {
  public:
-  // Writes a page's values, -limit beyond the grid.
-  void refine(const Field& coarse, const Along& along, float scale, float limit, Index3 page_shape,
-              std::span<float> values) {
+  // What the page is. The values of one that is stored are written, -limit beyond the grid.
+  Field::Kind refine(const Field& coarse, const Along& along, float scale, float limit, Index3 page_shape,
+                     std::span<float> values) {
     gather(coarse, along);
+    // phi between voxels is not beyond theirs: where all of them are clamped the page is constant.
+    if (std::ranges::all_of(block_, [&](float phi) { return scale * phi <= -limit; }))
+      return Field::Kind::outside;
+    if (std::ranges::all_of(block_, [&](float phi) { return scale * phi >= limit; }))
+      return Field::Kind::inside;
     interpolate(along, scale, limit, page_shape, values);
+    return Field::Kind::stored;
   }
 
  private:
@@ -134,7 +140,9 @@ class Refiner {
     ThreadPool pool(threads);
     std::vector<PageRefiner> refiners(static_cast<std::size_t>(pool.threads()));
     const std::int64_t length = fine_.layout.voxels_per_page();
-    std::vector<float> values(static_cast<std::size_t>(std::min(kAtOnce, std::ssize(varying_)) * length));
+    const std::int64_t most = std::min(kAtOnce, std::ssize(varying_));
+    std::vector<float> values(static_cast<std::size_t>(most * length));
+    std::vector<Field::Kind> kinds(static_cast<std::size_t>(most));
     const auto of = [&](std::int64_t place) {
       return std::span(values).subspan(static_cast<std::size_t>(place * length),
                                        static_cast<std::size_t>(length));
@@ -145,13 +153,21 @@ class Refiner {
           static_cast<std::size_t>(std::min(kAtOnce, std::ssize(varying_) - first)));
       pool.for_each(std::ssize(pages), 8, [&](std::int64_t begin, std::int64_t end, int member) {
         for (std::int64_t i = begin; i < end; ++i) {
-          refiners[static_cast<std::size_t>(member)].refine(
-              coarse_, along(pages[static_cast<std::size_t>(i)]), static_cast<float>(grid_.scale()),
-              static_cast<float>(fine_.band), fine_.layout.page_shape(), of(i));
+          const auto place = static_cast<std::size_t>(i);
+          kinds[place] = refiners[static_cast<std::size_t>(member)].refine(
+              coarse_, along(pages[place]), static_cast<float>(grid_.scale()), static_cast<float>(fine_.band),
+              fine_.layout.page_shape(), of(i));
         }
       });
-      for (std::int64_t i = 0; i < std::ssize(pages); ++i)
-        fine_.store_page(fine_.layout.page_number(pages[static_cast<std::size_t>(i)]), of(i));
+      for (std::int64_t i = 0; i < std::ssize(pages); ++i) {
+        const auto place = static_cast<std::size_t>(i);
+        const std::int64_t page = fine_.layout.page_number(pages[place]);
+        if (kinds[place] == Field::Kind::stored) {
+          fine_.store_page(page, of(i));
+        } else {
+          fine_.pages.set_constant(page, kinds[place]);
+        }
+      }
     }
   }
 
@@ -182,14 +198,30 @@ class Refiner {
     return reaches;
   }
 
-  // Sets the pages that are constant, and remembers the others.
+  // Sets the pages that are constant, and remembers the others. Most rows of pages are outside, as all of phi
+  // is at first.
   void find_pages() {
-    for_each_index(Index3(0), fine_.layout.pages(), [&](Index3 page) {
-      const auto constant = constant_around(along(page));
-      if (!constant) return varying_.push_back(page);
-      if (*constant == Field::Kind::outside) return;  // as all of phi is at first
-      fine_.pages.set_constant(fine_.layout.page_number(page), *constant);
+    const Index3 pages = fine_.layout.pages();
+    for_each_index(Index3(0), {1, pages.y, pages.z}, [&](Index3 row) {
+      if (is_row_outside(along(row))) return;
+      for_each_index(row, row + Index3(pages.x, 1, 1), [&](Index3 page) {
+        const auto constant = constant_around(along(page));
+        if (!constant) return varying_.push_back(page);
+        if (*constant == Field::Kind::outside) return;
+        fine_.pages.set_constant(fine_.layout.page_number(page), *constant);
+      });
     });
+  }
+
+  // Of the coarse pages around a row of the fine ones.
+  [[nodiscard]] bool is_row_outside(const Along& along) const {
+    const auto [x, y, z] = along;
+    return all_indices({0, y->first_page, z->first_page}, {1, y->last_page + 1, z->last_page + 1},
+                       [&](Index3 row) {
+                         const auto first = kinds_.begin() + coarse_.layout.page_number(row);
+                         return std::all_of(first, first + coarse_.layout.pages().x,
+                                            [](Field::Kind kind) { return kind == Field::Kind::outside; });
+                       });
   }
 
   // What stands for a page where no stored page of the coarse phi reaches it.

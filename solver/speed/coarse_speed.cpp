@@ -22,20 +22,26 @@ glm::vec3 scaled(const glm::vec3& value, double factor) {
 }
 
 // The mean of each block's voxels, one block after the other. Blocks at the end of an axis may be incomplete.
+// A row of blocks at once: their sums do not wait for each other.
 template <class Value>
 void average(const VoxelBox& voxels, Index3 factor, const Value* values, Value* means) {
+  const std::int64_t blocks = (voxels.size.x + factor.x - 1) / factor.x;
   for (std::int64_t z = 0; z < voxels.size.z; z += factor.z) {
     for (std::int64_t y = 0; y < voxels.size.y; y += factor.y) {
-      for (std::int64_t x = 0; x < voxels.size.x; x += factor.x) {
-        const Index3 size = glm::min(factor, voxels.size - Index3(x, y, z));
-        Value sum(0);
-        for (std::int64_t k = z; k < z + size.z; ++k) {
-          for (std::int64_t j = y; j < y + size.y; ++j) {
-            const Value* const row = values + x + voxels.size.x * (j + voxels.size.y * k);
-            for (std::int64_t i = 0; i < size.x; ++i) sum += row[i];
+      const Index3 size = glm::min(factor, voxels.size - Index3(0, y, z));
+      std::fill_n(means, blocks, Value(0));
+      for (std::int64_t k = z; k < z + size.z; ++k) {
+        for (std::int64_t j = y; j < y + size.y; ++j) {
+          const Value* const row = values + voxels.size.x * (j + voxels.size.y * k);
+          for (std::int64_t i = 0; i < factor.x; ++i) {
+            const std::int64_t count = (voxels.size.x - i + factor.x - 1) / factor.x;
+            for (std::int64_t b = 0; b < count; ++b) means[b] += row[factor.x * b + i];
           }
         }
-        *means++ = scaled(sum, 1.0 / static_cast<double>(size.x * size.y * size.z));
+      }
+      for (std::int64_t b = 0; b < blocks; ++b, ++means) {
+        const std::int64_t width = std::min(factor.x, voxels.size.x - factor.x * b);
+        *means = scaled(*means, 1.0 / static_cast<double>(width * size.y * size.z));
       }
     }
   }
