@@ -17,10 +17,16 @@ BitMask::BitMask(const Mask& mask) : BitMask(mask.geometry) {
 }
 
 BitMask::BitMask(const Geometry& geometry, const Region& region) : BitMask(geometry) {
-  region.for_each_run([&](Index3 voxel, std::int64_t length) {
-    const std::int64_t first = geometry.offset(voxel);
-    for (std::int64_t offset = first; offset < first + length; ++offset) add(offset);
-  });
+  region.for_each_run([&](Index3 voxel, std::int64_t length) { add_run(geometry.offset(voxel), length); });
+}
+
+// The bytes between the first and the last as a whole.
+void BitMask::add_run(std::int64_t offset, std::int64_t length) {
+  const std::int64_t end = offset + length;
+  while (offset < end && offset % kBits != 0) add(offset++);
+  const std::int64_t whole = (end - offset) / kBits;
+  std::fill_n(bits_.begin() + offset / kBits, whole, std::byte{0xFF});
+  for (offset += whole * kBits; offset < end; ++offset) add(offset);
 }
 
 BitMask::BitMask(const Geometry& geometry, std::span<const std::byte> bits) : BitMask(geometry) {

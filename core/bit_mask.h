@@ -45,6 +45,8 @@ class BitMask {
  private:
   static constexpr std::int64_t kBits = 8;
 
+  void add_run(std::int64_t offset, std::int64_t length);
+
   Geometry geometry_;
   std::vector<std::byte> bits_;
 };

@@ -35,7 +35,20 @@ std::uint64_t word_of(const std::uint8_t* row, std::uint8_t value) {
   return word;
 }
 
-// Calls visit(j, k, word of a, word of b) for the words of a box that both have room for; a reference to a
+// Adds the voxels of a whole grid for which holds(offset) is true; the region has room for all.
+template <class Holds>
+void add_voxels(Region& region, Index3 grid_size, const Holds& holds) {
+  std::int64_t offset = 0;
+  for (std::int64_t k = 0; k < grid_size.z; ++k) {
+    for (std::int64_t j = 0; j < grid_size.y; ++j) {
+      std::uint64_t* const words = region.row(j, k).data();
+      for (std::int64_t i = 0; i < grid_size.x; ++i, ++offset)
+        words[i / kBits] |= std::uint64_t{holds(offset) ? 1U : 0U} << (i % kBits);
+    }
+  }
+}
+
+// Calls visit(word of a, word of b) for the words of a box that both have room for; a reference to a
 // word of `a` where `a` may be changed.
 template <class A, class Visit>
 void for_each_common_word(A& a, const Region& b, const Visit& visit) {
@@ -68,19 +81,12 @@ Region::Region(const VoxelRange& box) {
 }
 
 Region::Region(const Mask& mask) : Region(VoxelRange{Index3(0), mask.geometry.size}) {
-  const std::uint8_t* value = mask.voxels.data();
-  for (std::uint64_t* word = words_.data(); word != words_.data() + words_.size(); word += words_a_row()) {
-    for (std::int64_t i = 0; i < mask.geometry.size.x; ++i, ++value)
-      word[i / kBits] |= std::uint64_t{*value != 0 ? 1U : 0U} << (i % kBits);
-  }
+  add_voxels(*this, mask.geometry.size,
+             [&](std::int64_t offset) { return mask.voxels[static_cast<std::size_t>(offset)] != 0; });
 }
 
 Region::Region(const BitMask& mask) : Region(VoxelRange{Index3(0), mask.geometry().size}) {
-  std::int64_t offset = 0;
-  for (std::uint64_t* word = words_.data(); word != words_.data() + words_.size(); word += words_a_row()) {
-    for (std::int64_t i = 0; i < mask.geometry().size.x; ++i, ++offset)
-      word[i / kBits] |= std::uint64_t{mask.contains(offset) ? 1U : 0U} << (i % kBits);
-  }
+  add_voxels(*this, mask.geometry().size, [&](std::int64_t offset) { return mask.contains(offset); });
 }
 
 Region::Region(const PagedBytes& values, std::uint8_t value) {

@@ -41,6 +41,18 @@ class BitMaskTest : public QObject {
     QVERIFY(Region(BitMask(grid_)).empty());
   }
 
+  void runs_of_a_region_begin_and_end_within_bytes() {
+    const Geometry grid{{40, 3, 2}, glm::dvec3(1.0), glm::dmat3(1.0), {}};
+    for (const VoxelRange& box : {VoxelRange{{3, 0, 0}, {37, 3, 2}},
+                                  {{0, 1, 0}, {40, 2, 2}},
+                                  {{8, 0, 1}, {16, 3, 2}},
+                                  {{17, 0, 0}, {22, 3, 1}}}) {
+      const BitMask bits(grid, whole(box));
+      QCOMPARE(bits.count(), whole(box).count());
+      QVERIFY(Region(bits) == whole(box));
+    }
+  }
+
   void its_bits_make_it_again() {
     const BitMask bits(every_third());
     QCOMPARE(bits.bits().size(), std::size_t{49});

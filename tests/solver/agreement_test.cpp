@@ -1,8 +1,8 @@
 // Executors agree: T5 of the numerics, threads, chunks, instruction sets, saving and resuming.
 #include <cstdlib>
 
-#include "executor_rows.h"
 #include "random_problem.h"
+#include "settings.h"
 #include "solver/reference/reference_executor.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

@@ -1,8 +1,8 @@
 // The balance of the speed terms at a place foretells the next step, and what would turn it.
 #include "balance_check.h"
-#include "executor_rows.h"
 #include "phantom_problem.h"
 #include "random_problem.h"
+#include "settings.h"
 #include "solver/speed/speed_registry.h"
 #include "tests/support/test_program.h"
 

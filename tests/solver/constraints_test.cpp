@@ -1,7 +1,7 @@
 // Walls and anchors on every executor: at once, in each step, and in every edit.
 #include "solver/speed/constraints.h"
 
-#include "executor_rows.h"
+#include "settings.h"
 #include "solver/distance_transform.h"
 #include "solver/speed/motion_limit.h"
 #include "tests/support/support.h"

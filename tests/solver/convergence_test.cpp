@@ -2,7 +2,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
-#include "executor_rows.h"
+#include "settings.h"
 #include "solver/convergence.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

@@ -1,5 +1,5 @@
 // Painting and erasing while the surface moves, voxel by voxel.
-#include "executor_rows.h"
+#include "settings.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

@@ -5,7 +5,7 @@
 #include <glm/vector_relational.hpp>
 #include <random>
 
-#include "executor_rows.h"
+#include "settings.h"
 #include "solver/gl/packed_view.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

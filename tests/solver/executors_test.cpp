@@ -1,6 +1,6 @@
 // What every executor on OpenGL must do, row by row: the same level set as the others, page for page of its
 // own.
-#include "executor_rows.h"
+#include "settings.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

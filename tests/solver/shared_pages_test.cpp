@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/paging/shared_pages.h"
-#include "executor_rows.h"
+#include "settings.h"
 #include "solver/statistics.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"

@@ -1,5 +1,5 @@
 // A volume of one slice: the evolution is that of the plane, whatever the slice's thickness.
-#include "executor_rows.h"
+#include "settings.h"
 #include "solver/distance_transform.h"
 #include "solver/model.h"
 #include "solver/statistics.h"

@@ -1,7 +1,7 @@
 // What every executor does with a speed function: D and a velocity in each step, evaluated where the surface
 // comes, and anew when it follows the surface.
-#include "executor_rows.h"
 #include "formula_speed.h"
+#include "settings.h"
 #include "tests/support/support.h"
 #include "tests/support/test_program.h"
 

@@ -1,4 +1,4 @@
-// Rows of executors for data-driven tests, and a scene for them: common duties are written once.
+// Settings of executors, one a row of a test's data, and a scene for them: common duties are written once.
 #pragma once
 
 #include <QTest>
