@@ -7,7 +7,7 @@ namespace {
 
 constexpr auto kLapWindow = std::chrono::seconds(1);
 // Between two measurements, in terms of the last one's time.
-constexpr int kMeterRest = 10;
+constexpr int kMeterRest = 20;
 constexpr auto kShortestRest = std::chrono::milliseconds(50);
 constexpr auto kLongestRest = std::chrono::seconds(1);
 constexpr double kSmoothing = 0.3;  // weight of the newest run in the mean time of a step

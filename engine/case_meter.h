@@ -36,7 +36,7 @@ class CaseMeter {
   [[nodiscard]] double seconds_per_step() const { return seconds_per_step_; }
   [[nodiscard]] bool converged() const { return converged_; }
 
-  // Whether figures of the surface are due: as often as a tenth of the time allows, but at most twenty
+  // Whether figures of the surface are due: as often as a twentieth of the time allows, but at most twenty
   // times a second and at least once.
   [[nodiscard]] bool due() const { return Clock::now() >= due_at_; }
   // Measures the phi that `read_phi` gives (slow where it is on a GPU), and adds the figures to the level
@@ -67,7 +67,7 @@ class CaseMeter {
   bool thorough_ = false;
   std::shared_ptr<const solver::Field> phi_;
   std::shared_ptr<const std::vector<std::int64_t>> moving_pages_;
-  solver::SurfaceMeter surface_meter_;
+  solver::SurfaceMeter surface_meter_{0};
   solver::SurfaceStatistics surface_;
   document::InsideStatistics inside_meter_;
   document::RegionStatistics inside_;

@@ -15,6 +15,11 @@ constexpr double kChunkSeconds = 0.016;   // of steps between two pictures, at l
 constexpr double kMostVoxels = 8.0;
 constexpr std::int64_t kFewestSteps = 50;
 constexpr std::int64_t kMostSteps = 500;
+// So it is while the surface sets out. From then on each run may take more than the one before, up to so many
+// times as much: pictures come as seldom as is still seen as motion, and the solver has the rest.
+constexpr int kRunsOfTheStart = 5;
+constexpr double kGrowth = 1.5;
+constexpr double kMostGrowth = 10.0;
 
 }  // namespace
 
@@ -24,6 +29,7 @@ void StepSchedule::set(double steps_per_second) {
 }
 
 void StepSchedule::restart() {
+  runs_ = 0;
   voxels_per_step_ = 0.0;
   is_old_ = true;
 }
@@ -38,6 +44,7 @@ void StepSchedule::begin_steps() {
 }
 
 void StepSchedule::end_steps() {
+  ++runs_;
   ended_ = Engine::Clock::now();
 }
 
@@ -46,11 +53,10 @@ std::int64_t StepSchedule::steps_to_next_picture(double seconds_per_step) const 
   if (steps_per_second_ > 0.0) return std::max(std::llround(kChunkSeconds * steps_per_second_), 1LL);
   if (seconds_per_step <= 0.0) return 1;
   const double chunk_s = std::max(kUpdateSeconds - between_s_, kChunkSeconds);
-  const std::int64_t most =
-      voxels_per_step_ > 0.0
-          ? std::llround(std::clamp(kMostVoxels / voxels_per_step_, 1.0 * kFewestSteps, 1.0 * kMostSteps))
-          : kFewestSteps;
-  return std::clamp<std::int64_t>(std::llround(chunk_s / seconds_per_step), 1, most);
+  const double growth = std::min(std::pow(kGrowth, std::max(runs_ - kRunsOfTheStart, 0)), kMostGrowth);
+  const double in_sight = voxels_per_step_ > 0.0 ? kMostVoxels / voxels_per_step_ : kFewestSteps;
+  const double most = std::min(std::max(in_sight, 1.0 * kFewestSteps) * growth, 1.0 * kMostSteps);
+  return std::llround(std::clamp(chunk_s / seconds_per_step, 1.0, most));
 }
 
 Engine::Clock::time_point StepSchedule::next_due(std::int64_t steps) {

@@ -37,6 +37,7 @@ class StepSchedule {
   Engine::Clock::time_point due_;    // of the steps up to here
   Engine::Clock::time_point ended_;  // the last run of steps
   double between_s_ = 0.0;           // the last two runs
+  int runs_ = 0;                     // of steps, since restart()
   double voxels_per_step_ = 0.0;     // 0: nobody knows
   bool is_old_ = true;               // what is reported next
 };

@@ -24,7 +24,7 @@ class QualityControl {
  public:
   static constexpr double kInteractive = 0.033;  // seconds a picture may take while something moves
   // The same while a surface plays: most of the processor's time belongs to the solver.
-  static constexpr double kPlaying = 0.007;
+  static constexpr double kPlaying = 0.004;
   static constexpr double kForHalf = 1.5;  // a picture of half the pixels a side may take so many times it
   static constexpr int kSmallest = 4;      // a moving picture has at least a fourth of the pixels a side
   static constexpr int kRounds = 9;  // pictures of a still view, at most, whose mean is the finished one

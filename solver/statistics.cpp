@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/index_walk.h"
+#include "core/thread_pool.h"
 #include "solver/page_with_apron.h"
 #include "solver/paging/page_neighbours.h"
 
@@ -130,9 +131,20 @@ void SurfaceMeter::follow(const Field& phi) {
   } else {
     pages = phi.pages.stored_pages();
   }
-  PageWithApron values(phi);
-  for (const std::int64_t page : pages) sums_[page] = sums_of(phi, page, values);
+  add(phi, pages);
   measured_ = phi;
+}
+
+void SurfaceMeter::add(const Field& phi, const std::vector<std::int64_t>& pages) {
+  constexpr std::int64_t kWorthThreads = 256;  // pages: a millisecond
+  ThreadPool pool(std::ssize(pages) < kWorthThreads ? 1 : threads_);
+  std::vector<PageWithApron> values(static_cast<std::size_t>(pool.threads()), PageWithApron(phi));
+  std::vector<PageSums> sums(pages.size());
+  pool.for_each(std::ssize(pages), 16, [&](std::int64_t begin, std::int64_t end, int member) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      sums[i] = sums_of(phi, pages[i], values[static_cast<std::size_t>(member)]);
+  });
+  for (std::size_t i = 0; i < pages.size(); ++i) sums_[pages[i]] = sums[i];
 }
 
 SurfaceStatistics SurfaceMeter::measure(const Field& phi) {

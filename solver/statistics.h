@@ -21,6 +21,9 @@ SurfaceStatistics measure(const Field& phi);
 // again. The figures are those of measure(), to the last bit.
 class SurfaceMeter {
  public:
+  // `threads` as of ThreadPool.
+  explicit SurfaceMeter(int threads = 1) : threads_(threads) {}
+
   SurfaceStatistics measure(const Field& phi);
 
  private:
@@ -32,8 +35,10 @@ class SurfaceMeter {
   };
   void follow(const Field& phi);
   void begin(const Field& phi);
+  void add(const Field& phi, const std::vector<std::int64_t>& pages);
   [[nodiscard]] static PageSums sums_of(const Field& phi, std::int64_t page, class PageWithApron& values);
 
+  int threads_;
   std::optional<Field> measured_;
   std::map<std::int64_t, PageSums> sums_;
   std::int64_t constant_inside_ = 0;  // voxels of pages that are inside throughout

@@ -44,6 +44,23 @@ class StepScheduleTest : public QObject {
     QCOMPARE(steps(schedule_of(1e-6), 1e-5), 500);
   }
 
+  void the_solver_gets_more_time_once_it_was_seen_how_the_surface_sets_out() {
+    StepSchedule schedule = schedule_of(0.1);
+    for (int run = 0; run < 5; ++run) {
+      QCOMPARE(steps(schedule, 1e-5), 80);
+      schedule.end_steps();
+    }
+    QCOMPARE(steps(schedule, 1e-5), 80);
+    schedule.end_steps();
+    QCOMPARE(steps(schedule, 1e-5), 120);
+    for (int run = 0; run < 20; ++run) schedule.end_steps();
+    QCOMPARE(steps(schedule, 1e-5), 500);
+    QCOMPARE(steps(schedule, 1e-3), 48);  // 20 pictures a second
+    schedule.restart();
+    for (int report = 0; report < 2; ++report) schedule.moved(0.1);
+    QCOMPARE(steps(schedule, 1e-5), 80);
+  }
+
   void slow_steps_are_seen_one_by_one() {
     QCOMPARE(steps(schedule_of(0.1), 1.0), 1);
     QCOMPARE(steps(schedule_of(0.1), 0.012), 4);  // of 48 ms
