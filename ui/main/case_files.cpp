@@ -53,11 +53,24 @@ void CaseFiles::write(CaseWindow& window, const QString& file, Work work, Ended 
 
 void CaseFiles::write_contents(CaseWindow& window, const QString& file,
                                std::function<Status(const document::SessionContents&)> work) {
-  window.proxy().take_snapshot(window.view_state(), [this, about = about_writing(window, file), file,
-                                                     study = window.proxy().shared_study(),
-                                                     work = std::move(work)](const auto& snapshot) {
+  await(window);
+  const auto write = [this, about = about_writing(window, file), file, from = &window,
+                      study = window.proxy().shared_study(), work = std::move(work)](const auto& snapshot) {
     run({about, file, audited(study, file, [snapshot, work] { return work(snapshot->contents); }), {}});
-  });
+    no_longer_await(from);
+  };
+  window.proxy().take_snapshot(window.view_state(), write, [this, from = &window] { no_longer_await(from); });
+}
+
+void CaseFiles::await(const CaseWindow& window) {
+  if (++awaited_[&window] == 1)
+    connect(&window, &QObject::destroyed, this, [this, gone = &window] { awaited_.remove(gone); });
+}
+
+void CaseFiles::no_longer_await(const CaseWindow* window) {
+  if (--awaited_[window] > 0) return;
+  awaited_.remove(window);
+  emit waits_no_more(window);
 }
 
 void CaseFiles::run(Write write) {

@@ -1,6 +1,7 @@
 // Files of cases: where to, and writing them.
 #pragma once
 
+#include <QHash>
 #include <QObject>
 #include <filesystem>
 #include <functional>
@@ -38,8 +39,11 @@ class CaseFiles : public QObject {
   void write_contents(CaseWindow& window, const QString& file,
                       std::function<Status(const document::SessionContents&)> work);
   [[nodiscard]] bool writing() const { return !writes_.empty(); }
+  // Whether write_contents() still waits for what the case is like.
+  [[nodiscard]] bool waits_for(const CaseWindow& window) const { return awaited_.contains(&window); }
 
  signals:
+  void waits_no_more(const tidemark::ui::CaseWindow* window);
   void written(const QString& file);
   void ended();  // well or not
 
@@ -55,9 +59,12 @@ class CaseFiles : public QObject {
   void run(Write write);
   void start(Write& write);
   void end(const Write& write, const Status& status);
+  void await(const CaseWindow& window);
+  void no_longer_await(const CaseWindow* window);
 
   MainWindow& window_;
-  std::list<Write> writes_;  // that have not ended
+  std::list<Write> writes_;                // that have not ended
+  QHash<const CaseWindow*, int> awaited_;  // how often
   std::vector<std::shared_ptr<engine::BackgroundJob>> jobs_;
 };
 

@@ -16,7 +16,10 @@ QString session_filter() {
 }
 
 SessionWriter::SessionWriter(MainWindow& window, CaseFiles& files)
-    : QObject(&window), window_(window), files_(files) {}
+    : QObject(&window), window_(window), files_(files) {
+  // Later than within the answer of the case that goes.
+  connect(&files, &CaseFiles::waits_no_more, this, &SessionWriter::close_after_exports, Qt::QueuedConnection);
+}
 
 void SessionWriter::save(CaseWindow& window) {
   window.session_file.isEmpty() ? save_as(window) : save_to(window, window.session_file);
@@ -61,6 +64,10 @@ void SessionWriter::save_to(CaseWindow& window, const QString& file, CaseFiles::
 
 void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
   if (closes_later(window)) return event->ignore();
+  if (files_.waits_for(window)) {
+    close_later(window, after_exports_);
+    return event->ignore();
+  }
   if (!window.proxy().state().modified) return event->accept();
   const auto answer = ask(&window_, tr("Close"),
                           tr("%1 has changes that are not in a session file.").arg(window.proxy().name()),
@@ -70,8 +77,7 @@ void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
   // It closes itself once the file is written.
   const QString file = window.session_file.isEmpty() ? ask_for_file(window) : window.session_file;
   if (file.isEmpty()) return;
-  closing_ << &window;
-  connect(&window, &QObject::destroyed, this, [this, key = &window] { closing_.remove(key); });
+  close_later(window, once_saved_);
   window.proxy().pause();
   save_to(window, file, [this, closing = QPointer(&window)](bool written) {
     if (!closing) return;
@@ -86,8 +92,21 @@ void SessionWriter::close(CaseWindow& window, QCloseEvent* event) {
   });
 }
 
+void SessionWriter::close_later(const CaseWindow& window, QSet<const CaseWindow*>& when) {
+  when << &window;
+  connect(&window, &QObject::destroyed, this, [&when, key = &window] { when.remove(key); });
+}
+
+// Asked for anew, since it may have changes.
+void SessionWriter::close_after_exports(const CaseWindow* window) {
+  if (!after_exports_.remove(window)) return;
+  const QPointer alive(window);
+  window->parentWidget()->close();
+  if (alive && !closes_later(*alive)) emit not_saved();
+}
+
 void SessionWriter::keep_open(const CaseWindow& window) {
-  closing_.remove(&window);
+  once_saved_.remove(&window);
   emit not_saved();
 }
 

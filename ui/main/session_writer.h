@@ -25,8 +25,10 @@ class SessionWriter : public QObject {
 
   // Asks before something is lost.
   void close(CaseWindow& window, QCloseEvent* event);
-  // The case closes once it is saved.
-  [[nodiscard]] bool closes_later(const CaseWindow& window) const { return closing_.contains(&window); }
+  // The case closes once it is saved, or exports that were asked for have taken from it what they write.
+  [[nodiscard]] bool closes_later(const CaseWindow& window) const {
+    return once_saved_.contains(&window) || after_exports_.contains(&window);
+  }
 
  signals:
   void saved(tidemark::ui::CaseWindow& window);  // its session_file holds it
@@ -35,11 +37,14 @@ class SessionWriter : public QObject {
  private:
   [[nodiscard]] QString ask_for_file(CaseWindow& window);
   void save_to(CaseWindow& window, const QString& file, CaseFiles::Ended ended = {});
+  void close_later(const CaseWindow& window, QSet<const CaseWindow*>& when);
+  void close_after_exports(const CaseWindow* window);
   void keep_open(const CaseWindow& window);  // one that would have closed
 
   MainWindow& window_;
   CaseFiles& files_;
-  QSet<const CaseWindow*> closing_;  // cases that close once they are saved
+  QSet<const CaseWindow*> once_saved_;  // cases that close then
+  QSet<const CaseWindow*> after_exports_;
 };
 
 }  // namespace tidemark::ui

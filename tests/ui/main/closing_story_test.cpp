@@ -14,9 +14,11 @@
 
 #include "core/atomic_file.h"
 #include "imaging/files/volume_file.h"
+#include "imaging/load_study.h"
 #include "tests/support/test_program.h"
 #include "tests/ui/file_dialog.h"
 #include "tests/ui/main/desktop.h"
+#include "ui/main/case_exports.h"
 #include "ui/main/case_files.h"
 #include "ui/main/message_bar.h"
 
@@ -129,6 +131,8 @@ class ClosingStoryTest : public QObject {
   void a_case_that_is_saved_may_go_while_another_one_asks_at_quit();
   void the_last_of_two_writes_to_one_file_counts();
   void quitting_waits_for_files_that_are_being_written();
+  void an_export_that_waits_for_its_case_is_written_all_the_same_data();
+  void an_export_that_waits_for_its_case_is_written_all_the_same();
   void measurements_are_work_that_is_saved();
 };
 
@@ -469,6 +473,45 @@ void ClosingStoryTest::quitting_waits_for_files_that_are_being_written() {
   go.set_value();
   QVERIFY(Desktop::wait_for([&] { return !desktop.window().isVisible(); }));
   QCOMPARE(bytes_of(text), QByteArray("whole"));
+}
+
+void ClosingStoryTest::an_export_that_waits_for_its_case_is_written_all_the_same_data() {
+  QTest::addColumn<bool>("quits");
+  QTest::newRow("the case is closed") << false;
+  QTest::newRow("the window is closed") << true;
+}
+
+void ClosingStoryTest::an_export_that_waits_for_its_case_is_written_all_the_same() {
+  QFETCH(const bool, quits);
+  Desktop desktop(solver::ExecutorKind::host);
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "mask.nii.gz";
+  ui::CaseWindow* window = begin_phantom(desktop, "sphere");
+  const std::int64_t inside = desktop.state().surface.voxels_inside;
+  std::promise<void> go = hold(desktop);
+  int questions = 0;
+  const auto answers = at_each_question([&](QMessageBox& box) {
+    ++questions;
+    box.button(QMessageBox::Discard)->click();
+  });
+  desktop.window().exports().write_mask(*window, path(file));
+  if (quits) {
+    QVERIFY(!desktop.window().close());
+  } else {
+    desktop.press(Qt::Key_W, Qt::ControlModifier);
+  }
+  QTest::qWait(100);
+  QCOMPARE(desktop.window().cases().size(), 1);
+  QCOMPARE(questions, 0);
+  go.set_value();
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().cases().isEmpty(); }));
+  QVERIFY(Desktop::wait_for([&] { return desktop.window().isVisible() != quits; }));
+  answers->stop();
+  QCOMPARE(questions, 1);
+  QVERIFY(Desktop::wait_for([&] { return !desktop.window().files().writing(); }));
+  const auto mask = imaging::load_mask(file);
+  QVERIFY2(mask, qPrintable(failure(mask)));
+  QCOMPARE(mask->count(), inside);
 }
 
 void ClosingStoryTest::measurements_are_work_that_is_saved() {
