@@ -63,12 +63,12 @@ struct ZipEntry {
   using Piece = std::function<std::span<const std::byte>(std::size_t number)>;
 
   // The bytes live until the archive is written.
-  ZipEntry(std::string_view name, std::span<const std::byte> bytes)
-      : name(name),
-        bytes(bytes.size()),
-        piece([bytes](std::size_t number) { return number == 0 ? bytes : std::span<const std::byte>(); }) {}
-  ZipEntry(std::string_view name, std::size_t bytes, Piece piece)
-      : name(name), bytes(bytes), piece(std::move(piece)) {}
+  ZipEntry(std::string_view entry, std::span<const std::byte> all)
+      : name(entry),
+        bytes(all.size()),
+        piece([all](std::size_t number) { return number == 0 ? all : std::span<const std::byte>(); }) {}
+  ZipEntry(std::string_view entry, std::size_t length, Piece pieces)
+      : name(entry), bytes(length), piece(std::move(pieces)) {}
 
   std::string_view name;
   std::size_t bytes;

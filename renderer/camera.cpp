@@ -70,10 +70,11 @@ glm::dmat4 Camera::voxel_from_view(const Geometry& geometry, double aspect) cons
   return voxel_from_axes(geometry, focus, {right() * half * aspect, up() * half, into * depth});
 }
 
-Camera Camera::turned_to(double azimuth, double elevation, const Geometry& geometry, double aspect) const {
+Camera Camera::turned_to(double new_azimuth, double new_elevation, const Geometry& geometry,
+                         double aspect) const {
   Camera camera = *this;
-  camera.azimuth = azimuth;
-  camera.elevation = elevation;
+  camera.azimuth = new_azimuth;
+  camera.elevation = new_elevation;
   camera.zoom *= camera.half_height_mm(geometry, aspect) / half_height_mm(geometry, aspect);
   return camera;
 }

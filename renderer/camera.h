@@ -34,7 +34,7 @@ struct Camera {
   // Half the picture's height, in mm.
   [[nodiscard]] double half_height_mm(const Geometry& geometry, double aspect) const;
   // Looks from another side, at the same scale.
-  [[nodiscard]] Camera turned_to(double azimuth, double elevation, const Geometry& geometry,
+  [[nodiscard]] Camera turned_to(double new_azimuth, double new_elevation, const Geometry& geometry,
                                  double aspect) const;
   // Looks from the same side at a box, so that it fills the picture.
   [[nodiscard]] Camera on(const Box& box, const Geometry& geometry, double aspect) const;

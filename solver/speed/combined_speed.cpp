@@ -9,12 +9,12 @@ namespace tidemark::solver {
 CombinedSpeed::CombinedSpeed(std::vector<std::shared_ptr<const SpeedFunction>> functions, Combine combine)
     : functions_(std::move(functions)), combine_(combine) {}
 
-void CombinedSpeed::join(Evaluate evaluate, const VoxelBox& box, double* speed) const {
+void CombinedSpeed::join(Evaluate method, const VoxelBox& box, double* speed) const {
   const auto count = static_cast<std::size_t>(box.voxels());
-  ((*functions_.front()).*evaluate)(box, speed);
+  ((*functions_.front()).*method)(box, speed);
   std::vector<double> other(count);
   for (std::size_t f = 1; f < functions_.size(); ++f) {
-    ((*functions_[f]).*evaluate)(box, other.data());
+    ((*functions_[f]).*method)(box, other.data());
     if (combine_ == Combine::least) {
       std::transform(speed, speed + count, other.data(), speed,
                      [](double a, double b) { return std::min(a, b); });

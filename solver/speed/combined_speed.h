@@ -42,7 +42,7 @@ class CombinedSpeed final : public SpeedFunction {
  private:
   // The D of all functions by that method.
   using Evaluate = void (SpeedFunction::*)(const VoxelBox&, double*) const;
-  void join(Evaluate evaluate, const VoxelBox& box, double* speed) const;
+  void join(Evaluate method, const VoxelBox& box, double* speed) const;
 
   std::vector<std::shared_ptr<const SpeedFunction>> functions_;
   Combine combine_;
