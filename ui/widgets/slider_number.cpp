@@ -1,5 +1,6 @@
 #include "ui/widgets/slider_number.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 #include <QSlider>

@@ -53,10 +53,10 @@ void DockingStoryTest::views_keep_their_shares_of_a_window() {
   auto* first = desktop.open_phantom("sphere");
   const auto shares = [&] {
     desktop.wait_until_idle();
-    QList<QPointF> shares;
+    QList<QPointF> all;
     for (ui::PictureView* view : visible(*first))
-      shares << QPointF(double(view->width()) / first->width(), double(view->height()) / first->height());
-    return shares;
+      all << QPointF(double(view->width()) / first->width(), double(view->height()) / first->height());
+    return all;
   };
   const QList<QPointF> before = shares();
   QCOMPARE(before.size(), qsizetype{3});

@@ -227,11 +227,11 @@ class ImagesStoryTest : public QObject {
     adder.add_file(*second, files[1]);
     adder.add_file(*first, files[2]);
     const auto names = [](ui::CaseWindow& window) {
-      QStringList names;
+      QStringList all;
       for (const engine::ShownImage& shown : window.proxy().display().settings().images)
-        names << QString::fromStdString(shown.image->name);
-      names.sort();
-      return names;
+        all << QString::fromStdString(shown.image->name);
+      all.sort();
+      return all;
     };
     QVERIFY(Desktop::wait_for([&] { return names(*first).size() == 2 && names(*second).size() == 1; },
                               kPatience));

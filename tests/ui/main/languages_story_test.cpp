@@ -88,9 +88,9 @@ class LanguagesStoryTest : public QObject {
     desktop.begin(10.0);
     desktop.speak("Deutsch");
     const auto sizes = [&] {
-      QList<QSize> sizes;
-      for (const ui::PictureView* view : desktop.window().active_case()->views()) sizes << view->size();
-      return sizes;
+      QList<QSize> all;
+      for (const ui::PictureView* view : desktop.window().active_case()->views()) all << view->size();
+      return all;
     };
     desktop.press(Qt::Key_4, Qt::ControlModifier);
     desktop.wait_until_idle();
