@@ -1,3 +1,5 @@
+#include <QtGlobal>
+
 #include "bench/solver_bench/dense_gl.h"
 #include "gpu/device.h"
 #include "solver/executor.h"
